@@ -1,0 +1,152 @@
+/* The arithmetic "mpfr:P": GNU MPFR at any precision from 2 bits to what NUM_LIMBS, which the including unit defines,
+ * can hold: 64 bits a limb. The exponent range is MPFR's own.
+ *
+ * A number holds its limbs and no pointer, so that it is copied by assignment and needs neither init nor clear.
+ * Before each operation the header that MPFR works with is laid over the limbs (MPFR manual, "Custom Interface");
+ * nothing is allocated. All bytes zero is a NaN. */
+#ifndef NUM_MPFR_H
+#define NUM_MPFR_H
+
+#include <mpfr.h>
+#include <stdbool.h>
+
+#ifndef NUM_LIMBS
+#error "define NUM_LIMBS, the 64-bit limbs of a significand, before including num/mpfr.h"
+#endif
+
+_Static_assert(GMP_NUMB_BITS == 64, "limbs must be of 64 bits");
+
+typedef struct {
+	mpfr_exp_t exponent;
+	int kind;                   /* MPFR's: NaN, infinity, zero or regular, negative for a negative number */
+	int precision;              /* bits of this number */
+	mp_limb_t limbs[NUM_LIMBS]; /* only those that the precision asks for are set, and only in a regular number */
+} num;
+
+static const char num_name[] = "mpfr";
+
+/* The working precision of this thread, kept as a processor keeps its rounding mode in a register: results have it,
+ * operands may have another. */
+static _Thread_local int num_precision = 53;
+
+/* Chooses the significand bits of this thread; false, changing nothing, when the arithmetic does not have them. */
+static inline bool num_choose(int bits)
+{
+	if (bits < 2 || bits > NUM_LIMBS * GMP_NUMB_BITS) return false;
+	num_precision = bits;
+	return true;
+}
+
+/* Significand bits in force. */
+static inline int num_bits(void)
+{
+	return num_precision;
+}
+
+/* Lays MPFR's header over a number, which must outlive it. */
+static inline void num_expose(mpfr_ptr header, num *number)
+{
+	mpfr_custom_init_set(header, number->kind, number->exponent, number->precision, number->limbs);
+}
+
+/* The same over a number that is about to be computed. */
+static inline void num_expose_result(mpfr_ptr header, num *number)
+{
+	number->precision = num_precision;
+	mpfr_custom_init(number->limbs, num_precision);
+	mpfr_custom_init_set(header, MPFR_NAN_KIND, 0, num_precision, number->limbs);
+}
+
+/* Takes what MPFR left in the header of a result; the limbs are in place already. */
+static inline void num_collect(num *number, mpfr_srcptr header)
+{
+	number->kind = mpfr_custom_get_kind(header);
+	number->exponent = mpfr_custom_get_exp(header);
+}
+
+typedef int num_operation(mpfr_ptr result, mpfr_srcptr a, mpfr_srcptr b, mpfr_rnd_t rounding);
+
+static inline num num_apply(num_operation *operation, num *a, num *b)
+{
+	num result;
+	mpfr_t header, header_a, header_b;
+	num_expose(header_a, a);
+	num_expose(header_b, b);
+	num_expose_result(header, &result);
+	operation(header, header_a, header_b, MPFR_RNDN);
+	num_collect(&result, header);
+	return result;
+}
+
+/* Rounded to nearest, ties to even. */
+static inline num from_double(double value)
+{
+	num result;
+	mpfr_t header;
+	num_expose_result(header, &result);
+	mpfr_set_d(header, value, MPFR_RNDN);
+	num_collect(&result, header);
+	return result;
+}
+
+/* Rounded to nearest, ties to even, once: to a subnormal double as well. */
+static inline double to_double(num x)
+{
+	mpfr_t header;
+	num_expose(header, &x);
+	return mpfr_get_d(header, MPFR_RNDN);
+}
+
+static inline num add(num a, num b)
+{
+	return num_apply(mpfr_add, &a, &b);
+}
+
+static inline num sub(num a, num b)
+{
+	return num_apply(mpfr_sub, &a, &b);
+}
+
+static inline num mul(num a, num b)
+{
+	return num_apply(mpfr_mul, &a, &b);
+}
+
+static inline num divide(num a, num b)
+{
+	return num_apply(mpfr_div, &a, &b);
+}
+
+static inline num root(num a)
+{
+	num result;
+	mpfr_t header, header_a;
+	num_expose(header_a, &a);
+	num_expose_result(header, &result);
+	mpfr_sqrt(header, header_a, MPFR_RNDN);
+	num_collect(&result, header);
+	return result;
+}
+
+/* Exact, at the precision that the number has. */
+static inline num negated(num a)
+{
+	a.kind = -a.kind;
+	return a;
+}
+
+/* Whether a < b; false when either is not a number. */
+static inline bool less(num a, num b)
+{
+	mpfr_t header_a, header_b;
+	num_expose(header_a, &a);
+	num_expose(header_b, &b);
+	return mpfr_less_p(header_a, header_b) != 0;
+}
+
+static inline bool is_finite(num a)
+{
+	return a.kind != MPFR_NAN_KIND && a.kind != MPFR_INF_KIND && a.kind != -MPFR_INF_KIND;
+}
+
+#endif

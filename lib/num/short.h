@@ -1,0 +1,111 @@
+/* The arithmetic "short:P": every result of binary64 is rounded once more, to P bits, 4 <= P <= 25.
+ *
+ * Rounding twice gives the same as rounding the exact result to P bits once, for + - * / and the square root, because
+ * 53 >= 2P + 2 (Figueroa, "When is double rounding innocuous?", SIGNUM Newsletter 30(3), 1995).
+ * The exponents are those of binary64, with gradual underflow to multiples of 2^(-1021 - P); there, and only there, a
+ * product may be rounded twice when P > 17, because it can have bits that the first rounding drops. */
+#ifndef NUM_SHORT_H
+#define NUM_SHORT_H
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+_Static_assert(FLT_EVAL_METHOD == 0, "double operations must round to double, not to something wider");
+
+typedef double num;
+
+static const char num_name[] = "short";
+
+/* The working precision of this thread, kept as a processor keeps its rounding mode in a register; 24 bits until it
+ * is chosen. It is stored in the form that rounding wants. */
+static _Thread_local struct {
+	uint64_t below_half; /* of a unit in the last place kept, less one unit of binary64 */
+	uint64_t kept;       /* the bits of a double that may be set */
+	int dropped;         /* how many may not */
+} num_rounding = {.below_half = (UINT64_C(1) << 28) - 1, .kept = ~UINT64_C(0) << 29, .dropped = 29};
+
+/* Chooses the significand bits of this thread; false, changing nothing, when the arithmetic does not have them. */
+static inline bool num_choose(int bits)
+{
+	if (bits < 4 || bits > 25) return false;
+	num_rounding.dropped = DBL_MANT_DIG - bits;
+	num_rounding.below_half = (UINT64_C(1) << (num_rounding.dropped - 1)) - 1;
+	num_rounding.kept = ~UINT64_C(0) << num_rounding.dropped;
+	return true;
+}
+
+/* Significand bits in force. */
+static inline int num_bits(void)
+{
+	return DBL_MANT_DIG - num_rounding.dropped;
+}
+
+/* To nearest, ties to even. A double's exponent stands above its significand, so that one integer addition rounds
+ * the magnitude and carries into the exponent, up to infinity. Infinity stays, having nothing to round, and so does a
+ * NaN of which only the top significand bit is set: no other comes out of from_double, nor out of an operation. */
+static inline num num_rounded(double value)
+{
+	uint64_t word;
+	memcpy(&word, &value, sizeof word);
+	word += num_rounding.below_half + (word >> num_rounding.dropped & 1);
+	word &= num_rounding.kept;
+	memcpy(&value, &word, sizeof value);
+	return value;
+}
+
+/* Rounded to nearest, ties to even. */
+static inline num from_double(double value)
+{
+	return num_rounded(isnan(value) ? NAN : value);
+}
+
+static inline double to_double(num x)
+{
+	return x;
+}
+
+static inline num add(num a, num b)
+{
+	return num_rounded(a + b);
+}
+
+static inline num sub(num a, num b)
+{
+	return num_rounded(a - b);
+}
+
+static inline num mul(num a, num b)
+{
+	return num_rounded(a * b);
+}
+
+static inline num divide(num a, num b)
+{
+	return num_rounded(a / b);
+}
+
+static inline num root(num a)
+{
+	return num_rounded(sqrt(a));
+}
+
+static inline num negated(num a)
+{
+	return -a;
+}
+
+/* Whether a < b; false when either is not a number. */
+static inline bool less(num a, num b)
+{
+	return a < b;
+}
+
+static inline bool is_finite(num a)
+{
+	return isfinite(a);
+}
+
+#endif
