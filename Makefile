@@ -1,0 +1,92 @@
+# Touchstone. `make` builds build/touchstone; `make report` and `make test` also install what is missing.
+#
+#   make report            the papers' figures at quick size, as pages in build/report
+#   make test              all tests, also under sanitizers, and the digests of other compilers and optimisations
+#   make CC=clang          another compiler               make BUILD=build/other   another place
+#   make clean, make format
+
+BUILD    := build
+CC       := gcc
+OPTIMISE := -O3
+WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
+CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp $(EXTRA)
+CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -DTOUCHSTONE_CASES='"$(CURDIR)/cases"' -MMD -MP
+LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lmpfr -lgmp -lm
+
+sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*')
+objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
+MAIN     := verify/command/main.c
+LIBRARY  := $(call objects,$(call sources,lib))
+PROGRAM  := $(call objects,$(filter-out $(MAIN),$(call sources,verify reports)))
+TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
+
+.PHONY: all report test check sanitize digests format clean
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+all: $(BUILD)/touchstone
+	@echo "built $<; next: '$< list', '$< run cases/hard-spheres.yaml', 'make report' or 'make test'"
+
+report:
+	@.ci/setup report
+	@$(MAKE) --no-print-directory $(BUILD)/touchstone
+	$(BUILD)/touchstone reproduce all --results $(BUILD)/results
+	$(BUILD)/touchstone report --results $(BUILD)/results --output $(BUILD)/report
+
+test:
+	@.ci/setup
+	@$(MAKE) --no-print-directory -j2 $(BUILD)/touchstone $(TESTS)
+	@$(MAKE) --no-print-directory check digests sanitize
+
+# Every test program, one after the other, from this folder.
+check: $(BUILD)/touchstone $(TESTS)
+	@for test in $(TESTS); do echo "== $$test"; $$test || exit 1; done
+
+# The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
+sanitize:
+	@$(MAKE) --no-print-directory -j2 BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
+		EXTRA='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer' prepared
+	@TOUCHSTONE_BRIEF=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
+		EXTRA='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer' check
+
+# One digest for both compilers and all optimisations.
+digests: $(BUILD)/touchstone
+	@$(MAKE) --no-print-directory -j2 BUILD=$(BUILD)/clang CC=clang $(BUILD)/clang/touchstone
+	@$(MAKE) --no-print-directory -j2 BUILD=$(BUILD)/plain OPTIMISE=-O0 $(BUILD)/plain/touchstone
+	@$(MAKE) --no-print-directory -j2 BUILD=$(BUILD)/clang-plain CC=clang OPTIMISE=-O0 $(BUILD)/clang-plain/touchstone
+	@verify/test/digests $(BUILD)/touchstone $(BUILD)/clang/touchstone $(BUILD)/plain/touchstone \
+		$(BUILD)/clang-plain/touchstone
+
+.PHONY: prepared
+prepared: $(BUILD)/touchstone $(TESTS)
+
+$(BUILD)/touchstone: $(call objects,$(MAIN)) $(PROGRAM) $(BUILD)/libtouchstone.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+
+$(BUILD)/libtouchstone.a: $(LIBRARY)
+	@rm -f $@
+	ar rcs $@ $^
+
+$(BUILD)/object/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+
+# Templates and plot scripts are part of the program.
+$(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
+$(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
+
+# gcc 12 vectorises double -> float -> double in pairs and drops the rounding on the way.
+$(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
+
+$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
+$(BUILD)/%_test: %_test.c $(PROGRAM) $(BUILD)/libtouchstone.a
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.o %.a,$^) $(LDLIBS) -lcmocka
+
+format:
+	clang-format -i $$(git ls-files '*.c' '*.h' '*.inl')
+
+clean:
+	rm -rf $(BUILD)
+
+-include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

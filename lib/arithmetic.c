@@ -1,0 +1,124 @@
+/* The public functions: an arithmetic is found by name, everything else goes through its table. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "unit/unit.h"
+
+static const struct unit *const units[] = {&unit_short,     &unit_binary32, &unit_binary64, &unit_extended, &unit_twin,
+										   &unit_binary128, &unit_mpfr2,    &unit_mpfr4,    &unit_mpfr16};
+enum { UNITS = sizeof units / sizeof *units };
+
+/* Finds the unit for "name" or "name:bits" and sets the thread's working precision to it. */
+static const struct unit *choose(const char *arithmetic, char error[160])
+{
+	const char *colon = strchr(arithmetic, ':');
+	size_t length = colon ? (size_t)(colon - arithmetic) : strlen(arithmetic);
+	char *end = "";
+	long bits = colon ? strtol(colon + 1, &end, 10) : 0;
+	bool known = false, number = !colon || (colon[1] >= '0' && colon[1] <= '9' && !*end);
+	for (int u = 0; u < UNITS; u++) {
+		if (strlen(units[u]->name) != length || memcmp(units[u]->name, arithmetic, length) != 0) continue;
+		known = true;
+		if (number && bits <= 100000 && units[u]->choose((int)bits)) return units[u];
+	}
+	snprintf(error, 160,
+			 known ? "arithmetic '%.40s': short:P takes P from 4 to 25, mpfr:P from 2 to 1024, the others no number"
+				   : "no arithmetic '%.40s'; known are short:P, binary32, binary64, extended, twin, binary128, mpfr:P",
+			 arithmetic);
+	return NULL;
+}
+
+/* Every unit's engine begins with its unit and the precision it was made with. */
+struct head {
+	const struct unit *unit;
+	int bits;
+};
+
+/* The unit of an engine, with the thread's working precision set to the engine's. */
+static const struct unit *unit_of(const struct touchstone_engine *engine)
+{
+	const struct head *head = (const struct head *)engine;
+	head->unit->choose(head->bits);
+	return head->unit;
+}
+
+struct touchstone_engine *touchstone_create(const struct touchstone_scene *scene, const char *arithmetic,
+											const char *method, char error[160])
+{
+	const struct unit *unit = choose(arithmetic, error);
+	return unit ? unit->create(scene, method, error) : NULL;
+}
+
+void touchstone_destroy(struct touchstone_engine *engine)
+{
+	if (engine) unit_of(engine)->destroy(engine);
+}
+
+enum touchstone_verdict touchstone_run(struct touchstone_engine *engine, const struct touchstone_limits *limits,
+									   const struct touchstone_observer *observer)
+{
+	return unit_of(engine)->run(engine, limits, observer);
+}
+
+void touchstone_status(const struct touchstone_engine *engine, struct touchstone_status *status)
+{
+	unit_of(engine)->status(engine, status);
+}
+
+void touchstone_recount(struct touchstone_engine *engine)
+{
+	unit_of(engine)->recount(engine);
+}
+
+void touchstone_elastic(struct touchstone_engine *engine, bool elastic)
+{
+	unit_of(engine)->elastic(engine, elastic);
+}
+
+void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3], double velocity[3])
+{
+	unit_of(engine)->state(engine, particle, position, velocity);
+}
+
+int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
+						  double *contact)
+{
+	return unit_of(engine)->separation(engine, terms, contact);
+}
+
+void touchstone_explain(const struct touchstone_engine *engine, void (*line)(void *context, const char *text),
+						void *context)
+{
+	unit_of(engine)->explain(engine, line, context);
+}
+
+bool touchstone_drop(const char *arithmetic, const char *method, const struct touchstone_drop *drop, size_t count,
+					 struct touchstone_landing *landing, touchstone_bounce *bounce, void *context, char error[160])
+{
+	const struct unit *unit = choose(arithmetic, error);
+	return unit && unit->drop(method, drop, count, landing, bounce, context, error);
+}
+
+const char *touchstone_drop_order(unsigned order)
+{
+	static const char *const orders[TOUCHSTONE_DROP_ORDERS] = {
+		"gap (r - plate) - s/2, flight (r + v t) + g/2 t^2", "gap r - (plate + s/2), flight (r + v t) + g/2 t^2",
+		"gap (r - plate) - s/2, flight r + (v t + g/2 t^2)", "gap r - (plate + s/2), flight r + (v t + g/2 t^2)",
+		"gap (r - plate) - s/2, flight r + t (v + g/2 t)",   "gap r - (plate + s/2), flight r + t (v + g/2 t)",
+	};
+	return order < TOUCHSTONE_DROP_ORDERS ? orders[order] : NULL;
+}
+
+const char *touchstone_arithmetic_name(size_t number)
+{
+	static const char *const names[] = {"short:P", "binary32", "binary64", "extended", "twin", "binary128", "mpfr:P"};
+	return number < sizeof names / sizeof *names ? names[number] : NULL;
+}
+
+const char *touchstone_method_name(size_t number)
+{
+	static const char *const names[] = {"stable", "naive"};
+	return number < sizeof names / sizeof *names ? names[number] : NULL;
+}

@@ -1,0 +1,221 @@
+/* The future-event list: a calendar of days, each an unsorted pile of entries, and a heap for the day that is open
+ * (Paul 2007, with arrays for lists). An entry costs one append; it is sorted only when its day comes. An entry that
+ * was overtaken is not searched for: its stamp no longer fits its particle, and it is dropped when it turns up.
+ *
+ * A day is 2^k long and lies within one page, so that the day of a moment is exact and entries of one day compare by
+ * their time alone. An entry holds all that its place in the order depends on: nothing that changes later, not even
+ * its being overtaken, may disorder the heap. */
+
+struct entry {
+	num time;          /* since the page began */
+	uint32_t particle; /* whose event it is */
+	uint32_t partner;  /* as in struct appointment */
+	uint32_t stamp;
+	uint32_t kind; /* 0: bookkeeping, which goes first; otherwise 1 + what the particle meets */
+};
+
+enum { PILE = 10 }; /* entries per block: in binary64 a block is 256 bytes */
+
+struct block {
+	uint32_t next, used;
+	struct entry entry[PILE];
+};
+
+struct distant {
+	double day;
+	struct entry entry;
+};
+
+struct agenda {
+	double day;          /* length of a day */
+	double today;        /* number of the day that is open */
+	double horizon;      /* first day that the ring does not hold */
+	size_t days;         /* size of the ring, a power of two */
+	uint32_t *pile;      /* first block of each day of the ring; 0: none */
+	size_t piled;        /* entries in the ring */
+	struct block *block; /* the blocks; number 0 is never used */
+	uint32_t blocks, block_room, spare;
+	struct entry *heap; /* the day that is open */
+	size_t size, heap_room;
+	struct distant *distant; /* beyond the horizon, in no order */
+	size_t distants, distant_room;
+	uint64_t opened, sorted; /* days opened and entries found there: to judge the length of a day by */
+	bool exhausted;          /* memory ran out and entries were lost: the agenda is of no more use */
+};
+
+/* Of two entries of one day, does `a` come first? Is an entry still what its particle means to do? */
+static bool entry_first(const void *context, const struct entry *a, const struct entry *b);
+static bool entry_holds(const void *context, const struct entry *entry);
+
+/* Makes room for one more element; false when there is no memory. */
+static bool agenda_grow(void **array, size_t *room, size_t used, size_t size)
+{
+	if (used < *room) return true;
+	size_t more = *room + *room / 4 + 64;
+	void *grown = realloc(*array, more * size);
+	if (!grown) return false;
+	*array = grown;
+	*room = more;
+	return true;
+}
+
+static void agenda_destroy(struct agenda *agenda)
+{
+	free(agenda->pile);
+	free(agenda->block);
+	free(agenda->heap);
+	free(agenda->distant);
+	*agenda = (struct agenda){0};
+}
+
+/* Lays out an empty calendar. `day` is a power of two, `days` too; `page` and `offset` say when it begins. */
+static bool agenda_create(struct agenda *agenda, double day, size_t days, double page, double offset)
+{
+	double today = floor(page / day) + floor(offset / day);
+	*agenda = (struct agenda){.day = day, .days = days, .today = today, .horizon = today + (double)days};
+	agenda->pile = calloc(days, sizeof *agenda->pile);
+	return agenda->pile;
+}
+
+static size_t agenda_memory(const struct agenda *agenda)
+{
+	return agenda->days * sizeof *agenda->pile + agenda->block_room * sizeof *agenda->block +
+		   agenda->heap_room * sizeof *agenda->heap + agenda->distant_room * sizeof *agenda->distant;
+}
+
+/* Takes a free block to stand before `next`; 0 when there is no memory. */
+static uint32_t block_take(struct agenda *agenda, uint32_t next)
+{
+	uint32_t number = agenda->spare;
+	if (number) {
+		agenda->spare = agenda->block[number].next;
+	} else {
+		size_t room = agenda->block_room;
+		if (agenda->blocks == 0) agenda->blocks = 1;
+		if (!agenda_grow((void **)&agenda->block, &room, agenda->blocks, sizeof *agenda->block)) return 0;
+		agenda->block_room = (uint32_t)room;
+		number = agenda->blocks++;
+	}
+	agenda->block[number].next = next;
+	agenda->block[number].used = 0;
+	return number;
+}
+
+static void pile_add(struct agenda *agenda, double day, struct entry entry)
+{
+	uint32_t *pile = &agenda->pile[(size_t)(int64_t)day & (agenda->days - 1)];
+	if (!*pile || agenda->block[*pile].used == PILE) {
+		uint32_t number = block_take(agenda, *pile);
+		if (!number) {
+			agenda->exhausted = true;
+			return;
+		}
+		*pile = number;
+	}
+	struct block *block = &agenda->block[*pile];
+	block->entry[block->used++] = entry;
+	agenda->piled++;
+}
+
+static void distant_add(struct agenda *agenda, double day, struct entry entry)
+{
+	if (agenda_grow((void **)&agenda->distant, &agenda->distant_room, agenda->distants, sizeof *agenda->distant))
+		agenda->distant[agenda->distants++] = (struct distant){day, entry};
+	else
+		agenda->exhausted = true;
+}
+
+static void heap_add(struct agenda *agenda, const void *context, struct entry entry)
+{
+	if (!agenda_grow((void **)&agenda->heap, &agenda->heap_room, agenda->size, sizeof *agenda->heap)) {
+		agenda->exhausted = true;
+		return;
+	}
+	size_t hole = agenda->size++;
+	while (hole) {
+		size_t parent = (hole - 1) / 2;
+		if (!entry_first(context, &entry, &agenda->heap[parent])) break;
+		agenda->heap[hole] = agenda->heap[parent];
+		hole = parent;
+	}
+	agenda->heap[hole] = entry;
+}
+
+static void heap_drop(struct agenda *agenda, const void *context)
+{
+	struct entry last = agenda->heap[--agenda->size];
+	size_t hole = 0, size = agenda->size;
+	for (;;) {
+		size_t child = 2 * hole + 1;
+		if (child >= size) break;
+		if (child + 1 < size && entry_first(context, &agenda->heap[child + 1], &agenda->heap[child])) child++;
+		if (!entry_first(context, &agenda->heap[child], &last)) break;
+		agenda->heap[hole] = agenda->heap[child];
+		hole = child;
+	}
+	agenda->heap[hole] = last;
+}
+
+/* Enters an event of a particle, `entry.time` after the beginning of `page`. What is overdue is served at once. */
+static void agenda_push(struct agenda *agenda, const void *context, double page, struct entry entry)
+{
+	double day = floor(page / agenda->day) + floor(double_below(entry.time) / agenda->day);
+	if (day < agenda->today) {
+		entry.time = from_double(-1);
+		day = agenda->today;
+	}
+	if (day == agenda->today)
+		heap_add(agenda, context, entry);
+	else if (day < agenda->horizon)
+		pile_add(agenda, day, entry);
+	else
+		distant_add(agenda, day, entry);
+}
+
+/* A new round of the ring begins on `today`: what was beyond the horizon is looked through. */
+static void agenda_turn(struct agenda *agenda, const void *context, double today)
+{
+	agenda->today = today;
+	agenda->horizon = today + (double)agenda->days;
+	size_t kept = 0;
+	for (size_t i = 0; i < agenda->distants; i++) {
+		struct distant distant = agenda->distant[i];
+		if (!entry_holds(context, &distant.entry)) continue;
+		if (distant.day < agenda->horizon)
+			pile_add(agenda, distant.day, distant.entry);
+		else
+			agenda->distant[kept++] = distant;
+	}
+	agenda->distants = kept;
+}
+
+/* Opens the next day that has entries; false when there is none. `*turned` tells when a round ended on the way. */
+static bool agenda_open(struct agenda *agenda, const void *context, bool *turned)
+{
+	while (agenda->size == 0) {
+		if (agenda->piled == 0) {
+			double next = INFINITY;
+			for (size_t i = 0; i < agenda->distants; i++)
+				if (entry_holds(context, &agenda->distant[i].entry)) next = fmin(next, agenda->distant[i].day);
+			if (next == INFINITY) return false;
+			agenda_turn(agenda, context, next);
+			*turned = true;
+		} else if (++agenda->today == agenda->horizon) {
+			agenda_turn(agenda, context, agenda->today);
+			*turned = true;
+		}
+		uint32_t *pile = &agenda->pile[(size_t)(int64_t)agenda->today & (agenda->days - 1)];
+		while (*pile) {
+			uint32_t number = *pile;
+			for (uint32_t i = 0; i < agenda->block[number].used; i++)
+				heap_add(agenda, context, agenda->block[number].entry[i]);
+			agenda->piled -= agenda->block[number].used;
+			agenda->sorted += agenda->block[number].used;
+			*pile = agenda->block[number].next;
+			agenda->block[number].next = agenda->spare;
+			agenda->spare = number;
+		}
+		agenda->opened++;
+	}
+	return true;
+}

@@ -1,0 +1,120 @@
+#include "engine/cells.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], const int count[3], uint32_t capacity)
+{
+	*cells = (struct cells){.dimensions = dimensions, .capacity = capacity};
+	size_t total = capacity;
+	for (int axis = 0; axis < 3; axis++) {
+		cells->periodic[axis] = periodic[axis];
+		cells->count[axis] = count[axis];
+		cells->stride[axis] = axis < dimensions ? total : 0;
+		if (axis < dimensions && __builtin_mul_overflow(total, (size_t)count[axis] + 2, &total)) return false;
+	}
+	int beyond_y = dimensions > 1, beyond_z = dimensions > 2;
+	for (int z = -beyond_z; z <= beyond_z; z++)
+		for (int y = -beyond_y; y <= beyond_y; y++)
+			cells->row[cells->rows++] =
+				z * (ptrdiff_t)cells->stride[2] + y * (ptrdiff_t)cells->stride[1] - (ptrdiff_t)cells->stride[0];
+	cells->entries = total;
+	size_t bytes = (total + 16) * sizeof *cells->entry; /* rows may be read 16 entries at a time */
+	cells->entry = malloc(bytes);
+	if (cells->entry) memset(cells->entry, 0xff, bytes);
+	return cells->entry;
+}
+
+void cells_destroy(struct cells *cells)
+{
+	free(cells->entry);
+	*cells = (struct cells){0};
+}
+
+/* The coordinates along one axis at which a cell shows: its own, and those of its ghosts, with their image codes. */
+static int shown(const struct cells *cells, int axis, int coordinate, int at[3], uint32_t code[3])
+{
+	at[0] = coordinate, code[0] = 0;
+	if (!cells->periodic[axis]) return 1;
+	int views = 1, count = cells->count[axis];
+	if (coordinate == 1) at[views] = coordinate + count, code[views++] = 1;
+	if (coordinate == count) at[views] = coordinate - count, code[views++] = 2;
+	return views;
+}
+
+/* Writes `entry` in place of `old` in one cell. */
+static bool replace(struct cells *cells, size_t index, uint32_t old, uint32_t entry)
+{
+	uint32_t *slot = cells->entry + index;
+	for (uint32_t i = 0; i < cells->capacity; i++) {
+		if (slot[i] == old) {
+			slot[i] = entry;
+			return true;
+		}
+	}
+	return false;
+}
+
+static bool show(struct cells *cells, const uint16_t cell[3], uint32_t particle, bool enter)
+{
+	int at[3][3] = {{0}}, views[3] = {1, 1, 1};
+	uint32_t code[3][3] = {{0}};
+	for (int axis = 0; axis < cells->dimensions; axis++)
+		views[axis] = shown(cells, axis, cell[axis], at[axis], code[axis]);
+	bool done = true;
+	for (int z = 0; z < views[2]; z++)
+		for (int y = 0; y < views[1]; y++)
+			for (int x = 0; x < views[0]; x++) {
+				size_t index = (size_t)at[0][x] * cells->stride[0] + (size_t)at[1][y] * cells->stride[1] +
+							   (size_t)at[2][z] * cells->stride[2];
+				uint32_t images = code[0][x] | code[1][y] << 2 | code[2][z] << 4;
+				uint32_t entry = particle | images << ENTRY_BITS;
+				done &= enter ? replace(cells, index, entry_none, entry) : replace(cells, index, entry, entry_none);
+			}
+	return done;
+}
+
+bool cells_insert(struct cells *cells, const uint16_t cell[3], uint32_t particle)
+{
+	return show(cells, cell, particle, true);
+}
+
+void cells_remove(struct cells *cells, const uint16_t cell[3], uint32_t particle)
+{
+	show(cells, cell, particle, false);
+}
+
+/* Appends the entries in use among `length`, without a branch per entry. */
+static size_t gather(const uint32_t *entry, size_t length, uint32_t *list, size_t found)
+{
+	for (size_t i = 0; i < length; i++) {
+		list[found] = entry[i];
+		found += entry[i] != entry_none;
+	}
+	return found;
+}
+
+size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t *list)
+{
+	const uint32_t *centre = cells->entry + cells_index(cells, cell);
+	size_t found = 0;
+	for (int row = 0; row < cells->rows; row++)
+		found = gather(centre + cells->row[row], 3 * (size_t)cells->capacity, list, found);
+	return found;
+}
+
+size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t *list)
+{
+	const uint32_t *centre = cells->entry + cells_index(cells, cell);
+	const uint32_t *face = centre + side * (ptrdiff_t)cells->stride[axis];
+	size_t found = 0, capacity = cells->capacity;
+	for (int row = 0; row < cells->rows; row++) {
+		ptrdiff_t offset = cells->row[row] + (ptrdiff_t)cells->stride[0]; /* the middle cell of the row */
+		int y = cells->dimensions > 1 ? row % 3 - 1 : 0, z = row / 3 - 1;
+		if (axis == 0)
+			found = gather(face + offset, capacity, list, found);
+		else if ((axis == 1 && y == 0) || (axis == 2 && z == 0))
+			found = gather(face + offset - capacity, 3 * capacity, list, found);
+	}
+	return found;
+}

@@ -1,0 +1,65 @@
+/* Search cells: which particles may be near which. Whole numbers only; nothing here moves a particle.
+ *
+ * A grid of cells covers the box, with one layer of ghosts around it. A cell is a short row of entries; an entry is
+ * a particle and, in a ghost, the periodic image that is meant. The same particle stands in every ghost that shows
+ * it, so a search never asks about boundaries, and a box of one cell per axis is a search over all pairs and images. */
+#ifndef TOUCHSTONE_CELLS_H
+#define TOUCHSTONE_CELLS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* An entry: the particle in the low bits; above them two bits per axis, the image: 0, or 1 for +1, or 2 for -1. */
+enum { ENTRY_BITS = 26 };
+#define ENTRY_PARTICLE ((UINT32_C(1) << ENTRY_BITS) - 1)
+static const uint32_t entry_none = UINT32_MAX; /* image 3 on every axis: never a particle */
+
+static inline uint32_t entry_particle(uint32_t entry)
+{
+	return entry & ENTRY_PARTICLE;
+}
+
+/* How many boxes the entry's particle is shifted along an axis: -1, 0 or 1. */
+static inline int entry_image(uint32_t entry, int axis)
+{
+	uint32_t code = entry >> (ENTRY_BITS + 2 * axis) & 3;
+	return (int)(code & 1) - (int)(code >> 1);
+}
+
+struct cells {
+	int dimensions;
+	bool periodic[3];
+	int count[3];      /* without ghosts; coordinates of real cells run from 1 to count */
+	size_t stride[3];  /* in entries */
+	uint32_t capacity; /* entries per cell */
+	uint32_t *entry;   /* all cells, x fastest */
+	size_t entries;
+	ptrdiff_t row[9]; /* offsets, in entries, of the rows of three cells around a cell */
+	int rows;
+};
+
+/* Makes an empty grid; false when there is no memory for it. */
+bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], const int count[3], uint32_t capacity);
+void cells_destroy(struct cells *cells);
+
+/* Enters a particle into its cell and the ghosts that show it; false when one of them is full. */
+bool cells_insert(struct cells *cells, const uint16_t cell[3], uint32_t particle);
+void cells_remove(struct cells *cells, const uint16_t cell[3], uint32_t particle);
+
+/* Lists the entries of a cell and its neighbours, or only of the neighbours beyond one face (axis, side -1 or +1).
+ * `list` has room for cells_most() entries and 16 more. Returns how many there are. */
+size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t *list);
+size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t *list);
+
+static inline size_t cells_most(const struct cells *cells)
+{
+	return (size_t)cells->rows * 3 * cells->capacity;
+}
+
+static inline size_t cells_index(const struct cells *cells, const uint16_t cell[3])
+{
+	return cell[0] * cells->stride[0] + cell[1] * cells->stride[1] + cell[2] * cells->stride[2];
+}
+
+#endif

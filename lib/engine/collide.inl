@@ -1,0 +1,196 @@
+/* What an event does: flight to contact, impulse, and the record of it. */
+
+/* Restitution at an impact with normal speed `speed`. The viscoelastic law is the Pade form of Mueller and Poeschel
+ * 2011 (Phys. Rev. E 84, 021302) in v* = beta^(1/2) speed^(1/10). It is a model, evaluated in double for every
+ * arithmetic, with a root found by Newton's method so that every machine agrees on it. */
+static double restitution_at(struct touchstone_restitution law, double speed)
+{
+	if (law.law == TOUCHSTONE_CONSTANT) return law.coefficient;
+	if (!(speed > 0)) return 1;
+	int exponent;
+	double fraction = frexp(speed, &exponent), root = 1;
+	for (; exponent % 5; exponent++) fraction /= 2;
+	for (int i = 0; i < 12; i++) root = (4 * root + fraction / (root * root * root * root)) / 5;
+	double x = sqrt(law.coefficient) * sqrt(ldexp(root, exponent / 5));
+	return (1 + 0.501086 * x) / (1 + x * (0.501086 + x * (1.15345 + x * (0.577977 + x * 0.532178))));
+}
+
+static const uint64_t first_digest = UINT64_C(0x746f756368);
+
+static uint64_t mix(uint64_t digest, uint64_t word)
+{
+	digest = (digest ^ word) * UINT64_C(0x9e3779b97f4a7c15);
+	return digest ^ digest >> 32;
+}
+
+static uint64_t bits_of(double x)
+{
+	uint64_t bits;
+	memcpy(&bits, &x, sizeof bits);
+	return bits;
+}
+
+/* Writes a finite x as a sum of doubles, each the nearest to what is left; returns how many. The same for every
+ * arithmetic that holds the same number. */
+static int expand(num x, double *terms, int most)
+{
+	int count = 0;
+	for (; count < most; count++) {
+		terms[count] = to_double(x);
+		if (terms[count] == 0 || !isfinite(terms[count])) break;
+		x = sub(x, from_double(terms[count]));
+	}
+	return count;
+}
+
+/* Enters an event into the digest: its rank says kind and particles, its moment when. */
+static void record(struct touchstone_engine *engine, uint64_t rank)
+{
+	double terms[TOUCHSTONE_MOST_TERMS];
+	uint64_t digest = mix(engine->digest, rank);
+	digest = mix(digest, bits_of(engine->now.page + 0.0));
+	int count = expand(engine->now.time, terms, TOUCHSTONE_MOST_TERMS);
+	for (int i = 0; i < count; i++) digest = mix(digest, bits_of(terms[i]));
+	engine->digest = digest;
+	engine->events++;
+}
+
+/* Counts an event against a particle for which hardly any time has passed since its last one. Many simultaneous
+ * contacts in a row are in order (each of n balls in a cradle has up to n); far beyond that a particle is not getting
+ * anywhere. */
+static void count_stall(struct touchstone_engine *engine, uint32_t i, bool stalled)
+{
+	struct home *home = &engine->home[i];
+	home->stalls = stalled ? home->stalls + 1 : 0;
+	if (home->stalls < 256 + 4 * engine->count || engine->verdict != TOUCHSTONE_DONE) return;
+	engine->verdict = TOUCHSTONE_COLLAPSED;
+	engine->blamed[0] = engine->blamed[1] = home->id;
+	const struct appointment *last = &engine->appointment[i];
+	if (home->meets == TOUCHSTONE_CONTACT) engine->blamed[1] = engine->home[entry_particle(last->partner)].id;
+	snprintf(engine->reason, sizeof engine->reason, "%u events of particle %u (the last with %s %u) at t = %.17g",
+			 home->stalls, home->id, home->meets == TOUCHSTONE_CONTACT ? "particle" : "wall",
+			 home->meets == TOUCHSTONE_CONTACT ? engine->blamed[1] : last->partner, moment_double(engine->now));
+}
+
+/* Whether a particle's last event was now, as far as the clock can tell: within two units in its last place. (A ball
+ * at rest may go on for ever by one such unit a bounce, when its flights round up to it.) */
+static bool stalls(const struct touchstone_engine *engine, uint32_t i)
+{
+	const struct body *body = &engine->body[i];
+	num since = add(sub(engine->now.time, body->time), from_double(engine->now.page - body->page));
+	num clock = engine->page_length < INFINITY ? from_double(engine->page_length) : engine->now.time;
+	return !less(mul(from_double(ldexp(1, 2 - engine->bits)), clock), since);
+}
+
+/* How many representable numbers `x` lies above `reference` (near it); the step below a power of two is half. */
+static int64_t steps_between(num reference, num x, int bits)
+{
+	int exponent;
+	double fraction = frexp(to_double(reference), &exponent), distance = to_double(sub(x, reference));
+	bool finer = distance < 0 && fraction == 0.5;
+	double steps = ldexp(distance, bits - exponent + finer);
+	return fabs(steps) < 0x1p62 ? (int64_t)rint(steps) : steps < 0 ? INT64_MIN : INT64_MAX;
+}
+
+static void tell(struct touchstone_engine *engine, enum touchstone_kind kind, uint32_t i, uint32_t other, num distance,
+				 num contact, num approach, num impulse)
+{
+	struct touchstone_event event = {
+		.kind = kind,
+		.first = engine->home[i].id,
+		.second = kind == TOUCHSTONE_CONTACT ? engine->home[other].id : other,
+		.time = moment_double(engine->now),
+		.approach = to_double(approach),
+		.impulse = fabs(to_double(impulse)),
+		.distance = to_double(distance),
+		.steps = steps_between(contact, distance, engine->bits),
+	};
+	if (kind == TOUCHSTONE_CONTACT && event.second < event.first) {
+		uint32_t first = event.second;
+		event.second = event.first, event.first = first;
+	}
+	engine->observer->event(engine->observer->context, engine, &event);
+}
+
+/* Two particles meet (2014 paper, eqs. 3 to 5). */
+static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
+{
+	uint32_t j = entry_particle(entry);
+	bool i_stalls = stalls(engine, i), j_stalls = stalls(engine, j);
+	struct body *first = &engine->body[i], *second = &engine->body[j];
+	advance(engine, first, &engine->place[i], engine->now);
+	advance(engine, second, &engine->place[j], engine->now);
+
+	num r[3], v[3], zero = from_double(0);
+	r[1] = r[2] = v[1] = v[2] = zero;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		engine->touching_image[axis] = entry_image(entry, axis);
+		r[axis] = offset_between(engine, i, j, entry_image(entry, axis), axis);
+		v[axis] = sub(first->velocity[axis], second->velocity[axis]);
+	}
+	num rr = dot(r, r), rv = dot(r, v), distance = zero, approach = zero;
+	bool constant = engine->elastic || engine->restitution.law == TOUCHSTONE_CONSTANT;
+	if (engine->observer || !constant) {
+		distance = root(rr);
+		approach = negated(divide(rv, distance));
+	}
+	double restitution = engine->elastic ? 1 : restitution_at(engine->restitution, to_double(approach));
+	num one = from_double(1);
+	num kick = mul(add(one, from_double(restitution)), divide(rv, rr));
+	if (!is_finite(kick)) {
+		engine->verdict = TOUCHSTONE_DIVERGED;
+		engine->blamed[0] = engine->home[i].id, engine->blamed[1] = engine->home[j].id;
+		snprintf(engine->reason, sizeof engine->reason,
+				 "the impulse between particles %u and %u is not finite, at t = %.17g", engine->blamed[0],
+				 engine->blamed[1], moment_double(engine->now));
+		return;
+	}
+	num to_first = from_double(0.5), to_second = to_first;
+	if (engine->species_count > 1) {
+		num mine = engine->mass[engine->place[i].species], yours = engine->mass[engine->place[j].species];
+		num both = add(mine, yours);
+		to_first = divide(yours, both);
+		to_second = divide(mine, both);
+	}
+	to_first = mul(to_first, kick);
+	to_second = mul(to_second, kick);
+	if (engine->observer) {
+		num mass = engine->mass[engine->place[i].species];
+		engine->touching[0] = i, engine->touching[1] = j;
+		tell(engine, TOUCHSTONE_CONTACT, i, j, distance, contact_distance(engine, i, j), approach,
+			 mul(mul(mass, to_first), distance));
+	}
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		first->velocity[axis] = sub(first->velocity[axis], mul(to_first, r[axis]));
+		second->velocity[axis] = add(second->velocity[axis], mul(to_second, r[axis]));
+	}
+	record(engine, rank_of(engine, i, entry, TOUCHSTONE_CONTACT));
+	engine->collisions++;
+	engine->appointment[i].changes++;
+	engine->appointment[j].changes++;
+	count_stall(engine, i, i_stalls);
+	count_stall(engine, j, j_stalls);
+}
+
+/* A particle meets a wall. */
+static void rebound(struct touchstone_engine *engine, uint32_t i, uint32_t number)
+{
+	const struct wall *wall = &engine->wall[number];
+	bool stalled = stalls(engine, i);
+	struct body *body = &engine->body[i];
+	advance(engine, body, &engine->place[i], engine->now);
+	struct ball_plane over = over_wall(engine, i, wall);
+	double coefficient = engine->elastic ? 1 : restitution_at(wall->restitution, -to_double(over.speed));
+	num kick = mul(add(from_double(1), from_double(coefficient)), over.speed);
+	if (engine->observer) {
+		uint32_t species = engine->place[i].species;
+		num contact = engine->radius[species];
+		tell(engine, TOUCHSTONE_WALL, i, number, add(over.gap, contact), contact, negated(over.speed),
+			 mul(engine->mass[species], kick));
+	}
+	for (int axis = 0; axis < engine->dimensions; axis++)
+		body->velocity[axis] = sub(body->velocity[axis], mul(kick, wall->normal[axis]));
+	record(engine, rank_of(engine, i, number, TOUCHSTONE_WALL));
+	engine->appointment[i].changes++;
+	count_stall(engine, i, stalled);
+}

@@ -1,0 +1,231 @@
+/* From a scene to an engine, and what an engine says of itself. */
+
+static const struct method methods[] = {
+	{"stable", stable_ball_ball, stable_ball_plane},
+	{"naive", naive_ball_ball, naive_ball_plane},
+};
+
+static bool refuse(char error[160], const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	vsnprintf(error, 160, format, arguments);
+	va_end(arguments);
+	return false;
+}
+
+static const struct method *find_method(const char *name, char error[160])
+{
+	for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+		if (strcmp(methods[m].name, name) == 0) return &methods[m];
+	refuse(error, "no method '%.60s'; known are stable and naive", name);
+	return NULL;
+}
+
+static void engine_destroy(struct touchstone_engine *engine)
+{
+	if (!engine) return;
+	cells_destroy(&engine->cells);
+	agenda_destroy(&engine->agenda);
+	void *owned[] = {engine->body,   engine->place, engine->appointment, engine->home,     engine->index_of,
+					 engine->radius, engine->mass,  engine->wall,        engine->candidate};
+	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
+	free(engine);
+}
+
+/* Rounds x > 0 up to so many significant bits. */
+static double round_up(double x, int bits)
+{
+	int exponent;
+	double fraction = frexp(x, &exponent);
+	return ldexp(ceil(ldexp(fraction, bits)), exponent - bits);
+}
+
+/* How large places and pages are (design, section 4). In the absolute form there is one place to a periodic box, and
+ * one page. */
+static void set_scales(struct touchstone_engine *engine, const struct touchstone_scene *scene)
+{
+	int bits = scene->grain && (int)scene->grain < engine->bits ? (int)scene->grain : engine->bits;
+	bits = bits > 53 ? 51 : bits - 2 > 2 ? bits - 2 : 2;
+	bool relative = scene->form == TOUCHSTONE_RELATIVE;
+	double speed = 0, pull = 0;
+	for (int axis = 0; axis < 3; axis++) engine->acceleration[axis] = from_double(0);
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		double width = 0, box = scene->box[axis];
+		engine->box[axis] = box;
+		if (engine->periodic[axis]) {
+			double places = relative ? fmax(1, floor(box / (2 * engine->largest))) : 1;
+			width = round_up(box / places, bits);
+			engine->places[axis] = (int32_t)places;
+			engine->box[axis] = width * places;
+		} else if (relative) {
+			int exponent;
+			frexp(4 * engine->largest, &exponent);
+			width = ldexp(1, exponent);
+		}
+		engine->place_width[axis] = width;
+		engine->place_size[axis] = from_double(width);
+		engine->acceleration[axis] = from_double(scene->acceleration[axis]);
+		engine->half_acceleration[axis] = mul(from_double(0.5), engine->acceleration[axis]);
+		if (scene->acceleration[axis] != 0) engine->accelerated = true;
+		pull = fmax(pull, fabs(scene->acceleration[axis]));
+	}
+	engine->page_length = INFINITY;
+	if (!relative) return;
+	for (size_t i = 0; i < scene->particle_count; i++)
+		for (int axis = 0; axis < engine->dimensions; axis++)
+			speed += scene->particles[i].velocity[axis] * scene->particles[i].velocity[axis];
+	speed = fmax(sqrt(speed / (double)scene->particle_count), sqrt(pull * engine->largest));
+	int exponent = 1;
+	if (speed > 0) frexp(engine->largest / speed, &exponent);
+	engine->page_length = ldexp(1, exponent - 1);
+}
+
+/* A position as a place and the rest. */
+static void set_position(const struct touchstone_engine *engine, const double position[3], num rest[3],
+						 int32_t index[3])
+{
+	for (int axis = 0; axis < 3; axis++) {
+		double width = axis < engine->dimensions ? engine->place_width[axis] : 0;
+		double place = width > 0 ? rint(position[axis] / width) : 0;
+		index[axis] = (int32_t)place;
+		rest[axis] = from_double(axis < engine->dimensions ? fma(-place, width, position[axis]) : 0);
+	}
+}
+
+static bool set_species_and_walls(struct touchstone_engine *engine, const struct touchstone_scene *scene)
+{
+	engine->species_count = scene->species_count;
+	engine->wall_count = scene->wall_count;
+	engine->radius = malloc(scene->species_count * sizeof *engine->radius);
+	engine->mass = malloc(scene->species_count * sizeof *engine->mass);
+	engine->wall = malloc((scene->wall_count + 1) * sizeof *engine->wall);
+	if (!engine->radius || !engine->mass || !engine->wall) return false;
+	for (size_t s = 0; s < scene->species_count; s++) {
+		engine->radius[s] = mul(from_double(0.5), from_double(scene->species[s].diameter));
+		engine->mass[s] = from_double(scene->species[s].mass);
+		engine->largest = fmax(engine->largest, scene->species[s].diameter);
+	}
+	engine->contact = add(engine->radius[0], engine->radius[0]);
+	set_scales(engine, scene);
+	for (size_t w = 0; w < scene->wall_count; w++) {
+		struct wall *wall = &engine->wall[w];
+		wall->restitution = scene->walls[w].restitution;
+		set_position(engine, scene->walls[w].point, wall->position, wall->index);
+		for (int axis = 0; axis < 3; axis++)
+			wall->normal[axis] = from_double(axis < engine->dimensions ? scene->walls[w].normal[axis] : 0);
+		wall->acceleration = dot(wall->normal, engine->acceleration);
+	}
+	return true;
+}
+
+/* Interleaves the bits of a cell's coordinates: cells near each other in space get keys near each other. */
+static uint64_t morton(const double cell[3])
+{
+	uint64_t key = 0;
+	for (int bit = 0; bit < 20; bit++)
+		for (int axis = 0; axis < 3; axis++) key |= ((uint64_t)cell[axis] >> bit & 1) << (3 * bit + axis);
+	return key;
+}
+
+struct ordered {
+	uint64_t key;
+	uint32_t id;
+};
+
+static int compare_ordered(const void *a, const void *b)
+{
+	const struct ordered *x = a, *y = b;
+	if (x->key != y->key) return x->key < y->key ? -1 : 1;
+	return (x->id > y->id) - (x->id < y->id);
+}
+
+/* Enters the particles in an order that keeps neighbours together in memory. */
+static bool set_particles(struct touchstone_engine *engine, const struct touchstone_scene *scene)
+{
+	size_t count = scene->particle_count;
+	engine->count = (uint32_t)count;
+	engine->body = aligned_alloc(64, (count * sizeof *engine->body + 63) / 64 * 64);
+	engine->place = calloc(count, sizeof *engine->place);
+	engine->appointment = calloc(count, sizeof *engine->appointment);
+	engine->home = calloc(count, sizeof *engine->home);
+	engine->index_of = malloc(count * sizeof *engine->index_of);
+	struct ordered *order = malloc(count * sizeof *order);
+	bool enough = engine->body && engine->place && engine->appointment && engine->home && engine->index_of && order;
+	for (size_t id = 0; enough && id < count; id++) {
+		double cell[3] = {0};
+		for (int axis = 0; axis < engine->dimensions; axis++)
+			cell[axis] = fmax(0, scene->particles[id].position[axis] + engine->box[axis] / 2) / engine->largest;
+		order[id] = (struct ordered){morton(cell), (uint32_t)id};
+	}
+	if (enough) qsort(order, count, sizeof *order, compare_ordered);
+	for (uint32_t i = 0; enough && i < count; i++) {
+		uint32_t id = order[i].id;
+		const struct touchstone_particle *particle = &scene->particles[id];
+		struct body *body = &engine->body[i];
+		set_position(engine, particle->position, body->position, engine->place[i].index);
+		for (int axis = 0; axis < 3; axis++)
+			body->velocity[axis] = from_double(axis < engine->dimensions ? particle->velocity[axis] : 0);
+		body->time = from_double(0);
+		body->page = 0;
+		engine->place[i].species = particle->species;
+		engine->home[i].id = id;
+		engine->home[i].meets = MEETS_NOTHING;
+		engine->index_of[id] = i;
+	}
+	free(order);
+	return enough;
+}
+
+static bool scene_makes_sense(const struct touchstone_scene *scene, char error[160])
+{
+	if (scene->dimensions < 1 || scene->dimensions > 3)
+		return refuse(error, "%d dimensions: 1, 2 or 3 are possible", scene->dimensions);
+	if (scene->particle_count < 1 || scene->particle_count >= ENTRY_PARTICLE)
+		return refuse(error, "%zu particles: 1 to %u are possible", scene->particle_count, ENTRY_PARTICLE - 1);
+	for (size_t s = 0; s < scene->species_count; s++)
+		if (!(scene->species[s].diameter > 0 && scene->species[s].mass > 0))
+			return refuse(error, "species %zu: diameter and mass must be positive", s);
+	for (size_t i = 0; i < scene->particle_count; i++)
+		if (scene->particles[i].species >= scene->species_count)
+			return refuse(error, "particle %zu: there is no species %u", i, scene->particles[i].species);
+	for (int axis = 0; axis < scene->dimensions; axis++)
+		if (!(scene->box[axis] > 0 && scene->box[axis] < INFINITY))
+			return refuse(error, "axis %d: the box must have a positive extent", axis);
+	return true;
+}
+
+static struct touchstone_engine *engine_create(const struct touchstone_scene *scene, const char *method,
+											   char error[160])
+{
+	if (!scene_makes_sense(scene, error)) return NULL;
+	const struct method *chosen = find_method(method, error);
+	if (!chosen) return NULL;
+	struct touchstone_engine *engine = calloc(1, sizeof *engine);
+	if (!engine) {
+		refuse(error, "not enough memory");
+		return NULL;
+	}
+	engine->unit = &THIS_UNIT;
+	engine->method = chosen;
+	engine->bits = num_bits();
+	engine->dimensions = scene->dimensions;
+	engine->restitution = scene->restitution;
+	engine->search = scene->search;
+	engine->wanted_cell = scene->cell;
+	engine->digest = first_digest;
+	engine->now.time = from_double(0);
+	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
+	bool made = set_species_and_walls(engine, scene) && set_particles(engine, scene);
+	if (made) {
+		engine->pairs = choose_pairs(engine);
+		engine->slack = slack_needed(engine, 0, typical_speed(engine));
+		made = lay_out(engine);
+	}
+	if (!made) {
+		refuse(error, "not enough memory for %zu particles", scene->particle_count);
+		engine_destroy(engine);
+		return NULL;
+	}
+	return engine;
+}

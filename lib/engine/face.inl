@@ -1,0 +1,130 @@
+/* What an engine tells, and the table the unit exports. */
+
+static size_t engine_memory(const struct touchstone_engine *engine)
+{
+	size_t each = sizeof *engine->body + sizeof *engine->place + sizeof *engine->appointment + sizeof *engine->home +
+				  sizeof *engine->index_of;
+	return sizeof *engine + engine->count * each + agenda_memory(&engine->agenda) +
+		   engine->cells.entries * sizeof *engine->cells.entry;
+}
+
+static void engine_status(const struct touchstone_engine *engine, struct touchstone_status *status)
+{
+	*status = (struct touchstone_status){
+		.verdict = engine->verdict,
+		.count = engine->count,
+		.bits = engine->bits,
+		.events = engine->events,
+		.collisions = engine->collisions,
+		.lookups = engine->lookups,
+		.time = moment_double(engine->now),
+		.digest = engine->digest,
+		.memory = engine_memory(engine),
+		.particles = {engine->blamed[0], engine->blamed[1]},
+	};
+	memcpy(status->reason, engine->reason, sizeof status->reason);
+}
+
+static void engine_recount(struct touchstone_engine *engine)
+{
+	engine->events = engine->collisions = engine->lookups = 0;
+	engine->digest = first_digest;
+}
+
+static void engine_elastic(struct touchstone_engine *engine, bool elastic)
+{
+	engine->elastic = elastic;
+}
+
+static void engine_state(const struct touchstone_engine *engine, uint32_t particle, double position[3],
+						 double velocity[3])
+{
+	uint32_t i = engine->index_of[particle];
+	struct body body = engine->body[i];
+	struct place place = engine->place[i];
+	advance(engine, &body, &place, engine->now);
+	for (int axis = 0; axis < 3; axis++) {
+		bool has = axis < engine->dimensions;
+		double box = engine->box[axis];
+		position[axis] = velocity[axis] = 0;
+		if (!has) continue;
+		position[axis] = fma(place.index[axis], engine->place_width[axis], to_double(body.position[axis]));
+		if (engine->periodic[axis]) position[axis] -= box * rint(position[axis] / box);
+		velocity[axis] = to_double(body.velocity[axis]);
+	}
+}
+
+static int engine_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
+							 double *contact)
+{
+	uint32_t i = engine->touching[0], j = engine->touching[1];
+	int most = 0, count[3] = {0};
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		double *to = terms[axis];
+		int32_t places = engine->place[i].index[axis] - engine->place[j].index[axis] -
+						 engine->touching_image[axis] * engine->places[axis];
+		int own = expand(engine->body[i].position[axis], to, TOUCHSTONE_MOST_TERMS);
+		int other = expand(negated(engine->body[j].position[axis]), to + own, TOUCHSTONE_MOST_TERMS);
+		count[axis] = own + other;
+		if (places) to[count[axis]++] = places * engine->place_width[axis];
+		if (count[axis] > most) most = count[axis];
+	}
+	for (int axis = 0; axis < 3; axis++)
+		for (int term = count[axis]; term < most; term++) terms[axis][term] = 0;
+	*contact = to_double(contact_distance(engine, i, j));
+	return most;
+}
+
+static void engine_explain(const struct touchstone_engine *engine, void (*line)(void *context, const char *text),
+						   void *context)
+{
+	char text[240];
+	const struct cells *cells = &engine->cells;
+	snprintf(text, sizeof text, "numbers: %d significant bits, %zu bytes each; %zu bytes per particle in all",
+			 engine->bits, sizeof(num), engine_memory(engine) / engine->count);
+	line(context, text);
+	if (engine->page_length < INFINITY)
+		snprintf(text, sizeof text, "time: in pages of %g, so that its error does not grow", engine->page_length);
+	else
+		snprintf(text, sizeof text, "time: absolute, as in the papers; it loses bits as it grows");
+	line(context, text);
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		double width = engine->place_width[axis];
+		snprintf(text, sizeof text, "axis %c: %s, extent %.17g; positions %s%s%g", "xyz"[axis],
+				 engine -> periodic[axis] ? "periodic" : "not periodic, no images drawn", engine->box[axis],
+				 width > 0 ? "within places of " : "from the origin", width > 0 ? "" : "; width ", width);
+		if (width == 0) text[strlen(text) - strlen("; width 0")] = 0;
+		line(context, text);
+	}
+	if (!cells->entry) {
+		line(context, "search: none; one particle has no neighbours, so no cells are built");
+	} else {
+		snprintf(text, sizeof text, "search: %d x %d x %d cells of side %.6g (%.3g slack), room for %u in each",
+				 cells->count[0], cells->count[1], cells->count[2], engine->cell_side[0], engine->slack,
+				 cells->capacity);
+		line(context, text);
+	}
+	snprintf(text, sizeof text, "agenda: days of %g, %zu of them in the ring", engine->agenda.day, engine->agenda.days);
+	line(context, text);
+	line(context, engine->wall_count ? "walls: tested for every particle" : "walls: none, so none are tested");
+	line(context, engine->accelerated ? "flights: parabolas" : "flights: straight, so no acceleration is computed");
+	line(context, engine->species_count > 1 ? "species: several, contact distance per pair"
+											: "species: one, so one contact distance for all pairs");
+	line(context, "pair states: none; hard bodies have nothing to remember");
+}
+
+const struct unit THIS_UNIT = {
+	.name = num_name,
+	.choose = num_choose,
+	.bits = num_bits,
+	.create = engine_create,
+	.destroy = engine_destroy,
+	.run = engine_run,
+	.status = engine_status,
+	.recount = engine_recount,
+	.elastic = engine_elastic,
+	.state = engine_state,
+	.separation = engine_separation,
+	.explain = engine_explain,
+	.drop = unit_drop,
+};

@@ -1,0 +1,143 @@
+/* Where to look: laying out cells and agenda. Any layout gives the same events; a poor one only takes longer. */
+
+/* How much wider than the largest contact distance a cell must be, so that no rounding of positions, of the reach of
+ * a far pair's discriminant, or (absolute form) of a late clock hides a neighbour. */
+static double slack_needed(const struct touchstone_engine *engine, double clock, double speed)
+{
+	double extent = 0, roundoff = ldexp(1, -engine->bits);
+	for (int axis = 0; axis < engine->dimensions; axis++) extent = fmax(extent, engine->box[axis]);
+	double drift = engine->page_length < INFINITY ? engine->page_length : clock;
+	return 0x1p-14 * engine->largest + 16 * roundoff * (extent * (1 + extent / engine->largest) + 8 * drift * speed);
+}
+
+static double typical_speed(const struct touchstone_engine *engine)
+{
+	double sum = 0;
+	for (uint32_t i = 0; i < engine->count; i++)
+		for (int axis = 0; axis < engine->dimensions; axis++) {
+			double speed = to_double(engine->body[i].velocity[axis]);
+			sum += speed * speed;
+		}
+	return sqrt(sum / engine->count);
+}
+
+/* Coordinate of a particle now, in the image of the box it is in. */
+static double coordinate_now(const struct touchstone_engine *engine, uint32_t i, int axis)
+{
+	const struct body *body = &engine->body[i];
+	double wait = moment_double(engine->now) - (body->page + to_double(body->time));
+	double path = to_double(body->velocity[axis]) * wait;
+	if (engine->accelerated) path += to_double(engine->half_acceleration[axis]) * wait * wait;
+	return to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis] + path;
+}
+
+/* The cell a coordinate lies in; outside the grid the nearest one. */
+static uint16_t cell_of(const struct touchstone_engine *engine, double coordinate, int axis)
+{
+	double cell = floor((coordinate + engine->box[axis] / 2) / engine->cell_side[axis]);
+	return (uint16_t)(1 + fmin(fmax(cell, 0), engine->cells.count[axis] - 1));
+}
+
+/* Enters every particle into its cell; false when one is too full. */
+static bool fill_cells(struct touchstone_engine *engine)
+{
+	for (uint32_t i = 0; i < engine->count; i++)
+		if (!cells_insert(&engine->cells, engine->home[i].cell, i)) return false;
+	return true;
+}
+
+/* Makes cells of the wanted capacity, doubling it until all particles find room; false when memory does not suffice. */
+static bool make_cells(struct touchstone_engine *engine, const int count[3], uint32_t capacity)
+{
+	for (;; capacity *= 2) {
+		cells_destroy(&engine->cells);
+		free(engine->candidate);
+		engine->candidate = NULL;
+		if (!cells_create(&engine->cells, engine->dimensions, engine->periodic, count, capacity)) return false;
+		engine->candidate = malloc((cells_most(&engine->cells) + 16) * sizeof *engine->candidate);
+		if (!engine->candidate) return false;
+		if (fill_cells(engine)) return true;
+	}
+}
+
+/* Chooses the grid for the particles as they are now. */
+static bool lay_out_cells(struct touchstone_engine *engine)
+{
+	static const double occupancy = 0.6; /* particles per cell to aim at where they are dilute */
+	static const int most_per_axis = 60000;
+	double volume = 1, reach = engine->largest + engine->slack;
+	int count[3] = {1, 1, 1};
+	for (int axis = 0; axis < engine->dimensions; axis++) volume *= engine->box[axis];
+	double side = engine->wanted_cell > 0 ? engine->wanted_cell
+										  : pow(volume * occupancy / engine->count, 1.0 / engine->dimensions);
+	side = fmax(side, reach);
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		if (engine->search == TOUCHSTONE_CELLS)
+			count[axis] = (int)fmin(fmax(floor(engine->box[axis] / side), 1), most_per_axis);
+		engine->cell_side[axis] = engine->box[axis] / count[axis];
+		engine->cells.count[axis] = count[axis];
+	}
+	for (uint32_t i = 0; i < engine->count; i++) {
+		for (int axis = 0; axis < engine->dimensions; axis++) {
+			double coordinate = coordinate_now(engine, i, axis), box = engine->box[axis];
+			if (engine->periodic[axis] && fabs(coordinate) > box / 2) { /* the image that is in the box */
+				double boxes = rint(coordinate / box);
+				engine->place[i].index[axis] -= (int32_t)(boxes * engine->places[axis]);
+				coordinate -= boxes * box;
+			}
+			engine->home[i].cell[axis] = cell_of(engine, coordinate, axis);
+		}
+	}
+	return make_cells(engine, count, 4);
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+	double x = *(const double *)a, y = *(const double *)b;
+	return (x > y) - (x < y);
+}
+
+/* A length for the agenda's days, from how soon a sample of the particles has something to do. */
+static double day_length(const struct touchstone_engine *engine)
+{
+	enum { SAMPLE = 1024 };
+	static const double entries_per_day = 12;
+	double wait[SAMPLE], now = moment_double(engine->now);
+	uint32_t found = 0, stride = engine->count / SAMPLE + 1;
+	for (uint32_t i = 0; i < engine->count; i += stride) {
+		const struct appointment *appointment = &engine->appointment[i];
+		uint8_t next;
+		double page = 0, key = leaving(engine, i, &page, &next), soonest = page + key - now;
+		if (engine->home[i].meets != MEETS_NOTHING)
+			soonest = fmin(soonest, appointment->page + to_double(appointment->time) - now);
+		if (soonest > 0 && soonest < INFINITY) wait[found++] = soonest;
+	}
+	double day = fmin(engine->page_length, 1);
+	if (found) {
+		qsort(wait, found, sizeof *wait, compare_doubles);
+		double part = fmax(0.1, 1.0 / found);
+		day = wait[(uint32_t)(part * found + 0.5) - 1] * entries_per_day / (part * engine->count);
+	}
+	int exponent;
+	frexp(day, &exponent);
+	return fmin(ldexp(1, exponent - 1), engine->page_length);
+}
+
+/* Lays out the agenda anew and enters every particle. */
+static bool lay_out_agenda(struct touchstone_engine *engine, double day)
+{
+	size_t days = 64;
+	while (days < engine->count / 2) days *= 2;
+	agenda_destroy(&engine->agenda);
+	if (!agenda_create(&engine->agenda, day, days, engine->now.page, to_double(engine->now.time))) return false;
+	for (uint32_t i = 0; i < engine->count; i++) schedule(engine, i);
+	return !engine->agenda.exhausted;
+}
+
+/* Lays out everything for the state as it is, and predicts every particle's next event. */
+static bool lay_out(struct touchstone_engine *engine)
+{
+	if (engine->count > 1 && !lay_out_cells(engine)) return false;
+	for (uint32_t i = 0; i < engine->count; i++) predict(engine, i);
+	return lay_out_agenda(engine, day_length(engine));
+}

@@ -1,0 +1,108 @@
+/* Motion between events, and the relative state of two particles. Both are pure functions of what the last events
+ * left: when they are asked for makes no difference. */
+
+/* Time from one body's last event to another's. */
+static inline num elapsed(const struct body *from, const struct body *to)
+{
+	return add(sub(to->time, from->time), from_double(to->page - from->page));
+}
+
+/* The moment `time` after the beginning of a page, on the page on which it falls. */
+static inline struct moment moment_on(const struct touchstone_engine *engine, double page, num time)
+{
+	struct moment moment = {page, time};
+	double length = engine->page_length, near = to_double(time);
+	if (!(near >= length)) return moment;
+	double pages = floor(near / length);
+	moment.time = sub(time, from_double(pages * length));
+	if (less(moment.time, from_double(0))) moment.time = sub(time, from_double(--pages * length));
+	moment.page += pages * length;
+	return moment;
+}
+
+static inline double moment_double(struct moment moment)
+{
+	return moment.page + to_double(moment.time);
+}
+
+/* Flies a body to a moment, and counts its position from the place it has reached. */
+static void advance(const struct touchstone_engine *engine, struct body *body, struct place *place,
+					struct moment moment)
+{
+	num wait = add(sub(moment.time, body->time), from_double(moment.page - body->page));
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		num path = mul(body->velocity[axis], wait);
+		if (engine->accelerated) {
+			path = add(path, mul(engine->half_acceleration[axis], mul(wait, wait)));
+			body->velocity[axis] = add(body->velocity[axis], mul(engine->acceleration[axis], wait));
+		}
+		num position = add(body->position[axis], path);
+		double width = engine->place_width[axis], offset = to_double(position);
+		if (2 * fabs(offset) > width && width > 0) {
+			double steps = rint(offset / width);
+			position = sub(position, mul(from_double(steps), engine->place_size[axis]));
+			place->index[axis] += (int32_t)steps;
+		}
+		body->position[axis] = position;
+	}
+	body->time = moment.time;
+	body->page = moment.page;
+}
+
+/* Position of particle i seen from image `image` of particle j, each where its own last event left it. */
+static inline num offset_between(const struct touchstone_engine *engine, uint32_t i, uint32_t j, int image, int axis)
+{
+	num offset = sub(engine->body[i].position[axis], engine->body[j].position[axis]);
+	int32_t places = engine->place[i].index[axis] - engine->place[j].index[axis] - image * engine->places[axis];
+	return places ? add(offset, mul(from_double(places), engine->place_size[axis])) : offset;
+}
+
+/* Relative position and velocity of i and an entry j at the later of their last events, and which of the two that
+ * was. Exchanging the two changes every sign and nothing else. */
+static inline const struct body *relative_state(const struct touchstone_engine *engine, uint32_t i, uint32_t entry,
+												num r[3], num v[3])
+{
+	uint32_t j = entry_particle(entry);
+	const struct body *first = &engine->body[i], *second = &engine->body[j];
+	num wait = elapsed(second, first), zero = from_double(0);
+	bool second_flies = !less(wait, zero); /* the earlier one flies on to meet the later one's time */
+	const struct body *flies = second_flies ? second : first;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		num path = mul(flies->velocity[axis], wait);
+		v[axis] = sub(first->velocity[axis], second->velocity[axis]);
+		if (engine->accelerated) {
+			num bend = mul(engine->half_acceleration[axis], mul(wait, wait));
+			path = second_flies ? add(path, bend) : sub(path, bend);
+			num gain = mul(engine->acceleration[axis], wait), gained = add(flies->velocity[axis], gain);
+			if (!second_flies) gained = sub(flies->velocity[axis], gain);
+			v[axis] = second_flies ? sub(first->velocity[axis], gained) : sub(gained, second->velocity[axis]);
+		}
+		r[axis] = sub(offset_between(engine, i, j, entry_image(entry, axis), axis), path);
+	}
+	for (int axis = engine->dimensions; axis < 3; axis++) r[axis] = v[axis] = zero;
+	return second_flies ? first : second;
+}
+
+static inline num contact_distance(const struct touchstone_engine *engine, uint32_t i, uint32_t j)
+{
+	if (engine->species_count == 1) return engine->contact;
+	return add(engine->radius[engine->place[i].species], engine->radius[engine->place[j].species]);
+}
+
+/* A particle over a wall, at the particle's last event. Where its centre is in contact is formed first: near it the
+ * difference is then exact, and a ball at rest is at rest (the other order lets the rounding of every landing through;
+ * the table of orders that `reproduce fig7` prints shows what that does). */
+static struct ball_plane over_wall(const struct touchstone_engine *engine, uint32_t i, const struct wall *wall)
+{
+	const struct body *body = &engine->body[i];
+	num radius = engine->radius[engine->place[i].species], gap = from_double(0), speed = gap;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		num touching = add(wall->position[axis], mul(wall->normal[axis], radius));
+		num offset = sub(body->position[axis], touching);
+		int32_t places = engine->place[i].index[axis] - wall->index[axis];
+		if (places) offset = add(offset, mul(from_double(places), engine->place_size[axis]));
+		gap = add(gap, mul(wall->normal[axis], offset));
+		speed = add(speed, mul(wall->normal[axis], body->velocity[axis]));
+	}
+	return (struct ball_plane){gap, speed, wall->acceleration};
+}

@@ -1,0 +1,123 @@
+/* What the engine remembers. A particle's state is what its last event left: where it was, how it moves, and when.
+ * It is touched by events only; everything else here says where to look next. */
+
+/* The last event of a particle. In binary64 a body fills one cache line, which is all that a pair test reads. */
+struct body {
+	num position[3]; /* from the middle of its place */
+	num velocity[3];
+	num time;    /* since the page began */
+	double page; /* when that page began: a multiple of the page's length */
+};
+
+/* Which place of the box a body's position is counted from, in the periodic image the particle is in now. Places are
+ * numbered from the middle of the box; their size is exact, so that a difference of places is exact. */
+struct place {
+	int32_t index[3];
+	uint32_t species;
+};
+
+/* The next physical event of a particle, as far as it knows. */
+struct appointment {
+	num time;
+	double page;
+	uint32_t partner;         /* entry of the other particle, or number of the wall */
+	uint32_t partner_changes; /* of the other, when this was found: if it has had more, this is no longer true */
+	uint32_t changes;         /* of this particle: its events, and its moves to another image */
+	uint32_t stamp;           /* of its valid entry in the agenda */
+};
+
+enum { MEETS_NOTHING = 255 };
+enum { NEXT_IS_PHYSICAL = 0 }; /* otherwise 1 + 2 axis + (side > 0): a cell is left that way */
+
+struct home {
+	uint16_t cell[3];
+	uint8_t meets; /* enum touchstone_kind, or MEETS_NOTHING */
+	uint8_t next;
+	uint32_t id;     /* the particle's number in the scene */
+	uint32_t stalls; /* events since time last moved for it */
+};
+
+struct moment {
+	double page;
+	num time;
+};
+
+/* A possible next event of one particle. */
+struct plan {
+	struct moment moment;
+	uint32_t partner;
+	uint8_t meets; /* enum touchstone_kind, or MEETS_NOTHING */
+	bool fresh;    /* found in this search */
+};
+
+struct touchstone_engine;
+
+/* Weighs all meetings of particle i with the first `candidates` entries that the engine has listed. */
+typedef void pair_search(struct touchstone_engine *engine, uint32_t i, size_t candidates, struct plan *plan);
+
+struct wall {
+	num position[3]; /* from the middle of its place, like a body's */
+	int32_t index[3];
+	num normal[3];
+	num acceleration; /* along the normal */
+	struct touchstone_restitution restitution;
+};
+
+struct method {
+	const char *name;
+	num (*ball_ball)(struct ball_ball);
+	num (*ball_plane)(struct ball_plane);
+};
+
+struct touchstone_engine {
+	const struct unit *unit; /* unit and bits come first: whoever calls does not know which unit it is */
+	int bits;
+	const struct method *method;
+
+	/* the particles, in an order that keeps neighbours near each other in memory */
+	uint32_t count;
+	struct body *body;
+	struct place *place;
+	struct appointment *appointment;
+	struct home *home;
+	uint32_t *index_of; /* of a particle's number in the scene */
+
+	/* the scene */
+	int dimensions;
+	bool periodic[3];
+	double box[3];
+	size_t species_count, wall_count;
+	num *radius, *mass; /* per species */
+	num contact;        /* of two particles, where there is one species */
+	struct wall *wall;
+	bool accelerated;
+	num acceleration[3], half_acceleration[3];
+	struct touchstone_restitution restitution;
+	bool elastic; /* overrides every restitution */
+
+	/* places and pages: how numbers are kept small */
+	num place_size[3];
+	double place_width[3]; /* the same; 0 on an axis that has no places */
+	int32_t places[3];     /* per box, on a periodic axis */
+	double page_length;    /* INFINITY: the page is never turned */
+
+	/* where to look */
+	enum touchstone_search search;
+	double wanted_cell, largest; /* largest: contact distance */
+	double slack;                /* how much wider than `largest` a cell must be for rounding not to matter */
+	double cell_side[3];
+	struct cells cells;
+	uint32_t *candidate; /* entries that a search has listed */
+	pair_search *pairs;
+	struct agenda agenda;
+
+	/* what has happened */
+	struct moment now;
+	uint64_t events, collisions, lookups, digest;
+	enum touchstone_verdict verdict;
+	char reason[160];
+	uint32_t blamed[2];
+	const struct touchstone_observer *observer;
+	uint32_t touching[2]; /* the pair in contact while an observer is called */
+	int touching_image[3];
+};

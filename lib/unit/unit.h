@@ -1,0 +1,29 @@
+/* What one arithmetic exports: everything in it is static but this table. The public functions of touchstone.h find
+ * the table by name (lib/arithmetic.c) and call through it. */
+#ifndef TOUCHSTONE_UNIT_H
+#define TOUCHSTONE_UNIT_H
+
+#include "touchstone.h"
+
+struct unit {
+	const char *name;
+	bool (*choose)(int bits); /* sets this thread's working precision; false when the unit does not offer it */
+	int (*bits)(void);        /* the working precision */
+	struct touchstone_engine *(*create)(const struct touchstone_scene *, const char *method, char error[160]);
+	void (*destroy)(struct touchstone_engine *);
+	enum touchstone_verdict (*run)(struct touchstone_engine *, const struct touchstone_limits *,
+								   const struct touchstone_observer *);
+	void (*status)(const struct touchstone_engine *, struct touchstone_status *);
+	void (*recount)(struct touchstone_engine *);
+	void (*elastic)(struct touchstone_engine *, bool);
+	void (*state)(const struct touchstone_engine *, uint32_t particle, double position[3], double velocity[3]);
+	int (*separation)(const struct touchstone_engine *, double terms[3][3 * TOUCHSTONE_MOST_TERMS], double *contact);
+	void (*explain)(const struct touchstone_engine *, void (*line)(void *, const char *), void *);
+	bool (*drop)(const char *method, const struct touchstone_drop *, size_t, struct touchstone_landing *,
+				 touchstone_bounce *, void *, char error[160]);
+};
+
+extern const struct unit unit_short, unit_binary32, unit_binary64, unit_extended, unit_twin, unit_binary128, unit_mpfr2,
+	unit_mpfr4, unit_mpfr16;
+
+#endif
