@@ -1,0 +1,134 @@
+/* touchstone reproduce: measures the papers' figures and stores them as results. */
+#include "command/command.h"
+
+#include <argp.h>
+#include <inttypes.h>
+#include <omp.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "command/interrupt.h"
+#include "command/progress.h"
+#include "figure/figure.h"
+
+const struct figure_entry figures[] = {
+	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide"},
+	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts"},
+	{NULL, NULL},
+};
+static struct result *(*const makers[])(const struct figure_setup *, char error[512]) = {figure_impact,
+																						 figure_collapse};
+enum { FIGURES = sizeof makers / sizeof *makers };
+
+struct arguments {
+	bool wanted[FIGURES];
+	bool full;
+	uint64_t seed;
+	int threads;
+	const char *results;
+};
+
+static const struct argp_option options[] = {
+	{"quick", 'q', 0, 0, "sizes that take minutes (the default)", 0},
+	{"full", 'f', 0, 0, "the papers' own sizes: 10^9 collisions per histogram, 10^6 plates", 0},
+	{"seed", 'S', "S", 0, "of the start states and plates (1)", 0},
+	{"threads", 't', "K", 0, "runs side by side (as many as there are cores); the numbers do not depend on it", 0},
+	{"results", 'r', "DIR", 0, "where results are stored (build/results)", 0},
+	{0},
+};
+
+static void want(struct arguments *arguments, const char *name)
+{
+	bool found = false;
+	for (int f = 0; f < FIGURES; f++)
+		if (strcmp(name, "all") == 0 || strcmp(name, figures[f].name) == 0) arguments->wanted[f] = found = true;
+	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, fig7, all", name);
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+	struct arguments *arguments = state->input;
+	switch (key) {
+	case 'q':
+		arguments->full = false;
+		return 0;
+	case 'f':
+		arguments->full = true;
+		return 0;
+	case 'S':
+		arguments->seed = option_count("seed", argument, 0, UINT64_MAX);
+		return 0;
+	case 't':
+		arguments->threads = (int)option_count("threads", argument, 1, 1024);
+		return 0;
+	case 'r':
+		arguments->results = argument;
+		return 0;
+	case ARGP_KEY_ARG:
+		want(arguments, argument);
+		return 0;
+	case ARGP_KEY_NO_ARGS:
+		argp_usage(state);
+		return 0;
+	default:
+		return ARGP_ERR_UNKNOWN;
+	}
+}
+
+static void show(void *context, double part)
+{
+	progress_show(context, 100 * part, 100);
+}
+
+/* Measures one figure and stores it. */
+static int make(int f, const struct arguments *arguments)
+{
+	char error[REPORT_ERROR], command[120];
+	struct progress progress = progress_begin(figures[f].name, "%");
+	struct figure_setup setup = {
+		.full = arguments->full,
+		.seed = arguments->seed,
+		.threads = arguments->threads,
+		.stop = interrupt_flag(),
+		.progress = show,
+		.context = &progress,
+	};
+	double began = progress_clock();
+	struct result *result = makers[f](&setup, error);
+	progress_end(&progress);
+	if (!result) return refuse("%s: %s", figures[f].name, error);
+	snprintf(command, sizeof command, "touchstone reproduce %s %s --seed %" PRIu64, figures[f].name,
+			 arguments->full ? "--full" : "--quick", arguments->seed);
+	double seconds = progress_clock() - began;
+	result_made_by(result, command, seconds, NULL);
+	bool written = result_write(result, arguments->results, error);
+	result_free(result);
+	if (!written) return refuse("%s", error);
+	fprintf(stderr, "%s: %s in %.1f s, stored as %s/%s.json\n", figures[f].name,
+			interrupted() ? "interrupted" : "measured", seconds, arguments->results, figures[f].name);
+	return STATUS_WELL;
+}
+
+int command_reproduce(int argc, char **argv)
+{
+	struct arguments arguments = {.seed = 1, .threads = omp_get_num_procs(), .results = "build/results"};
+	const struct argp argp = {
+		.options = options,
+		.parser = parse,
+		.args_doc = "FIGURE... | all",
+		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
+			   "Figures: fig3 (separations at impact), fig7 (the bouncing ball).\n"
+			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
+			   "incomplete.\n\n"
+			   "Example: touchstone reproduce fig7 --quick && touchstone report",
+	};
+	argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+	char error[REPORT_ERROR];
+	if (!aside_folder(arguments.results, error)) return refuse("%s", error);
+	interrupt_watch();
+	for (int f = 0; f < FIGURES && !interrupted(); f++) {
+		int status = arguments.wanted[f] ? make(f, &arguments) : STATUS_WELL;
+		if (status != STATUS_WELL) return status;
+	}
+	return interrupted() ? STATUS_INTERRUPTED : STATUS_WELL;
+}

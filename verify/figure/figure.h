@@ -1,0 +1,22 @@
+/* The papers' figures: each is measured here and becomes one result (reports/result.h). */
+#ifndef VERIFY_FIGURE_H
+#define VERIFY_FIGURE_H
+
+#include "result.h"
+#include <stdbool.h>
+
+struct figure_setup {
+	bool full; /* the papers' own sizes; otherwise what takes minutes */
+	uint64_t seed;
+	int threads;              /* runs side by side; the numbers do not depend on it */
+	const volatile int *stop; /* non-zero: come to an end with what is done */
+	/* Told how much of the whole is done, from one thread at a time; may be NULL. */
+	void (*progress)(void *context, double part);
+	void *context;
+};
+
+/* Each returns a finished result that the caller frees, or NULL with one line in `error`. */
+struct result *figure_impact(const struct figure_setup *setup, char error[512]);   /* 2014, fig. 3 */
+struct result *figure_collapse(const struct figure_setup *setup, char error[512]); /* 2014, section 5 and fig. 7 */
+
+#endif
