@@ -9,7 +9,7 @@ BUILD    := build
 CC       := gcc
 OPTIMISE := -O3
 WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
-CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp $(EXTRA)
+CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp -Wno-psabi $(EXTRA)
 CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -DTOUCHSTONE_CASES='"$(CURDIR)/cases"' -MMD -MP
 LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lmpfr -lgmp -lm
 
@@ -17,7 +17,7 @@ sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 LIBRARY  := $(call objects,$(call sources,lib))
-PROGRAM  := $(call objects,$(filter-out $(MAIN),$(call sources,verify reports)))
+PARTS    := $(call objects,$(filter-out $(MAIN),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
 
 .PHONY: all report test check sanitize digests format clean
@@ -60,16 +60,20 @@ digests: $(BUILD)/touchstone
 .PHONY: prepared
 prepared: $(BUILD)/touchstone $(TESTS)
 
-$(BUILD)/touchstone: $(call objects,$(MAIN)) $(PROGRAM) $(BUILD)/libtouchstone.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+# V=1 shows the whole commands.
+say = @$(if $(V),,echo '  $(1)';)$(if $(V),set -x;)
+
+$(BUILD)/touchstone: $(call objects,$(MAIN)) $(BUILD)/parts.a $(BUILD)/libtouchstone.a
+	$(call say,link $@) $(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
 $(BUILD)/libtouchstone.a: $(LIBRARY)
-	@rm -f $@
-	ar rcs $@ $^
+$(BUILD)/parts.a: $(PARTS)
+$(BUILD)/%.a:
+	$(call say,archive $@) rm -f $@ && ar rcs $@ $^
 
 $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # Templates and plot scripts are part of the program.
 $(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
@@ -79,9 +83,9 @@ $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
 $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 
 $(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
-$(BUILD)/%_test: %_test.c $(PROGRAM) $(BUILD)/libtouchstone.a
+$(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.o %.a,$^) $(LDLIBS) -lcmocka
+	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
 
 format:
 	clang-format -i $$(git ls-files '*.c' '*.h' '*.inl')

@@ -93,7 +93,7 @@ enum touchstone_kind {
 };
 
 enum touchstone_verdict {
-	TOUCHSTONE_DONE,      /* the limit was reached, or no event is left */
+	TOUCHSTONE_DONE,      /* a limit was reached, or no event is left */
 	TOUCHSTONE_COLLAPSED, /* events go on but time does not */
 	TOUCHSTONE_HALTED,    /* the method has no answer for the state it is in */
 	TOUCHSTONE_DIVERGED,  /* a coordinate is no longer finite */
@@ -119,8 +119,9 @@ struct touchstone_observer {
 };
 
 struct touchstone_limits {
-	uint64_t events; /* physical events to execute at most, in this call */
-	double time;     /* no event later than this is executed; INFINITY for no limit */
+	uint64_t events;          /* physical events to execute at most, in this call */
+	double time;              /* no event later than this is executed; INFINITY for no limit */
+	const volatile int *stop; /* non-zero: return soon, wherever the run is; may be NULL */
 };
 
 /* What a run has come to. */

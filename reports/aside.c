@@ -32,10 +32,14 @@ bool aside_open(struct aside *file, char error[REPORT_ERROR], const char *format
 		return false;
 	}
 	struct stat there;
-	bool folder = stat(file->path, &there) == 0 && S_ISDIR(there.st_mode);
-	file->stream = folder ? NULL : fopen(file->temporary, "w");
+	if (stat(file->path, &there) == 0 && !S_ISREG(there.st_mode)) { /* renaming would destroy a device or a pipe */
+		snprintf(error, REPORT_ERROR, "%.400s: not a file; accepted: a path that can be written", file->path);
+		forget(file);
+		return false;
+	}
+	file->stream = fopen(file->temporary, "w");
 	if (file->stream) return true;
-	refuse(error, file->path, folder ? EISDIR : errno);
+	refuse(error, file->path, errno);
 	forget(file);
 	return false;
 }

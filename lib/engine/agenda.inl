@@ -1,29 +1,35 @@
-/* The future-event list: a calendar of days, each an unsorted pile of entries, and a heap for the day that is open
- * (Paul 2007, with arrays for lists). An entry costs one append; it is sorted only when its day comes. An entry that
- * was overtaken is not searched for: its stamp no longer fits its particle, and it is dropped when it turns up.
+/* The future-event list: a calendar of days, each an unsorted pile of notes, and a heap for the day that is open
+ * (Paul 2007, with arrays for lists). A note costs one append of eight bytes; what it is about is looked up, and
+ * sorted, only when its day comes. A note that was overtaken is not searched for: its stamp no longer fits its
+ * particle, and it is dropped when it turns up.
  *
  * A day is 2^k long and lies within one page, so that the day of a moment is exact and entries of one day compare by
- * their time alone. An entry holds all that its place in the order depends on: nothing that changes later, not even
- * its being overtaken, may disorder the heap. */
+ * their time alone. */
 
-struct entry {
-	num time;          /* since the page began */
+struct note {
 	uint32_t particle; /* whose event it is */
-	uint32_t partner;  /* as in struct appointment */
 	uint32_t stamp;
-	uint32_t kind; /* 0: bookkeeping, which goes first; otherwise 1 + what the particle meets */
 };
 
-enum { PILE = 10 }; /* entries per block: in binary64 a block is 256 bytes */
+/* An event of the day that is open. It holds all that its place in the order depends on: nothing that changes later,
+ * not even its being overtaken, may disorder the heap. */
+struct entry {
+	num time; /* since the page began */
+	struct note note;
+	uint32_t partner; /* as in struct appointment */
+	uint32_t kind;    /* 0: bookkeeping, which goes first; otherwise 1 + what the particle meets */
+};
 
-struct block {
+enum { PILE = 7 };
+
+struct block { /* one cache line */
 	uint32_t next, used;
-	struct entry entry[PILE];
+	struct note note[PILE];
 };
 
 struct distant {
 	double day;
-	struct entry entry;
+	struct note note;
 };
 
 struct agenda {
@@ -43,9 +49,10 @@ struct agenda {
 	bool exhausted;          /* memory ran out and entries were lost: the agenda is of no more use */
 };
 
-/* Of two entries of one day, does `a` come first? Is an entry still what its particle means to do? */
+/* Of two entries of one day, does `a` come first? Is a note still what its particle means to do, and what is that? */
 static bool entry_first(const void *context, const struct entry *a, const struct entry *b);
-static bool entry_holds(const void *context, const struct entry *entry);
+static bool note_holds(const void *context, struct note note);
+static struct entry entry_of(const void *context, struct note note);
 
 /* Makes room for one more element; false when there is no memory. */
 static bool agenda_grow(void **array, size_t *room, size_t used, size_t size)
@@ -101,7 +108,7 @@ static uint32_t block_take(struct agenda *agenda, uint32_t next)
 	return number;
 }
 
-static void pile_add(struct agenda *agenda, double day, struct entry entry)
+static void pile_add(struct agenda *agenda, double day, struct note note)
 {
 	uint32_t *pile = &agenda->pile[(size_t)(int64_t)day & (agenda->days - 1)];
 	if (!*pile || agenda->block[*pile].used == PILE) {
@@ -113,14 +120,14 @@ static void pile_add(struct agenda *agenda, double day, struct entry entry)
 		*pile = number;
 	}
 	struct block *block = &agenda->block[*pile];
-	block->entry[block->used++] = entry;
+	block->note[block->used++] = note;
 	agenda->piled++;
 }
 
-static void distant_add(struct agenda *agenda, double day, struct entry entry)
+static void distant_add(struct agenda *agenda, double day, struct note note)
 {
 	if (agenda_grow((void **)&agenda->distant, &agenda->distant_room, agenda->distants, sizeof *agenda->distant))
-		agenda->distant[agenda->distants++] = (struct distant){day, entry};
+		agenda->distant[agenda->distants++] = (struct distant){day, note};
 	else
 		agenda->exhausted = true;
 }
@@ -167,9 +174,9 @@ static void agenda_push(struct agenda *agenda, const void *context, double page,
 	if (day == agenda->today)
 		heap_add(agenda, context, entry);
 	else if (day < agenda->horizon)
-		pile_add(agenda, day, entry);
+		pile_add(agenda, day, entry.note);
 	else
-		distant_add(agenda, day, entry);
+		distant_add(agenda, day, entry.note);
 }
 
 /* A new round of the ring begins on `today`: what was beyond the horizon is looked through. */
@@ -180,9 +187,9 @@ static void agenda_turn(struct agenda *agenda, const void *context, double today
 	size_t kept = 0;
 	for (size_t i = 0; i < agenda->distants; i++) {
 		struct distant distant = agenda->distant[i];
-		if (!entry_holds(context, &distant.entry)) continue;
+		if (!note_holds(context, distant.note)) continue;
 		if (distant.day < agenda->horizon)
-			pile_add(agenda, distant.day, distant.entry);
+			pile_add(agenda, distant.day, distant.note);
 		else
 			agenda->distant[kept++] = distant;
 	}
@@ -196,7 +203,7 @@ static bool agenda_open(struct agenda *agenda, const void *context, bool *turned
 		if (agenda->piled == 0) {
 			double next = INFINITY;
 			for (size_t i = 0; i < agenda->distants; i++)
-				if (entry_holds(context, &agenda->distant[i].entry)) next = fmin(next, agenda->distant[i].day);
+				if (note_holds(context, agenda->distant[i].note)) next = fmin(next, agenda->distant[i].day);
 			if (next == INFINITY) return false;
 			agenda_turn(agenda, context, next);
 			*turned = true;
@@ -207,8 +214,10 @@ static bool agenda_open(struct agenda *agenda, const void *context, bool *turned
 		uint32_t *pile = &agenda->pile[(size_t)(int64_t)agenda->today & (agenda->days - 1)];
 		while (*pile) {
 			uint32_t number = *pile;
-			for (uint32_t i = 0; i < agenda->block[number].used; i++)
-				heap_add(agenda, context, agenda->block[number].entry[i]);
+			for (uint32_t i = 0; i < agenda->block[number].used; i++) {
+				struct note note = agenda->block[number].note[i];
+				if (note_holds(context, note)) heap_add(agenda, context, entry_of(context, note));
+			}
 			agenda->piled -= agenda->block[number].used;
 			agenda->sorted += agenda->block[number].used;
 			*pile = agenda->block[number].next;

@@ -37,6 +37,7 @@ struct cells {
 	size_t entries;
 	ptrdiff_t row[9]; /* offsets, in entries, of the rows of three cells around a cell */
 	int rows;
+	size_t (*around)(const struct cells *cells, const uint16_t cell[3], uint32_t *list); /* the fastest there is */
 };
 
 /* Makes an empty grid; false when there is no memory for it. */
@@ -49,7 +50,10 @@ void cells_remove(struct cells *cells, const uint16_t cell[3], uint32_t particle
 
 /* Lists the entries of a cell and its neighbours, or only of the neighbours beyond one face (axis, side -1 or +1).
  * `list` has room for cells_most() entries and 16 more. Returns how many there are. */
-size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t *list);
+static inline size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t *list)
+{
+	return cells->around(cells, cell, list);
+}
 size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t *list);
 
 static inline size_t cells_most(const struct cells *cells)

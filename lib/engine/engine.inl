@@ -10,6 +10,8 @@
 #include "touchstone.h"
 #include "unit/unit.h"
 
+extern const struct unit THIS_UNIT;
+
 #include "num/vector.inl"
 
 #include "overlap/ball_ball.inl"

@@ -1,11 +1,13 @@
-/* The search over pairs in binary64, by the stable rule, on straight flights: eight partners at a time.
+/* The search over pairs in binary64, by the stable rule, on straight flights: eight partners at a time, on any machine.
  *
  * This is consider_pairs() of search.inl once more, operation by operation in the same order, so that its results are
  * the same to the last bit; a test holds the two against each other. A partner's body is one cache line: eight lines
  * are loaded and transposed, then every step is one vector operation. Compilers lower the vectors to what the target
  * has; choose_pairs() takes the widest that the machine offers. Measured gain: see `make bench`. */
 
-#pragma GCC diagnostic ignored "-Wpsabi" /* the vector types never cross a call that is not inlined */
+#ifdef __x86_64__
+#include "engine/pairs_avx512.inl"
+#endif
 
 enum { LANES = 8 };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
@@ -17,7 +19,7 @@ _Static_assert(sizeof(struct body) == sizeof(lanes), "a body is one row of the t
 _Static_assert(sizeof(struct place) == sizeof(half_int), "a place is half a row");
 
 /* Eight bodies in, eight fields out. */
-static inline __attribute__((always_inline)) void transpose(lanes row[LANES])
+static inline __attribute__((always_inline)) void transpose_lanes(lanes row[LANES])
 {
 	lanes pair[LANES], quad[LANES];
 	for (int i = 0; i < LANES; i += 2) {
@@ -71,7 +73,7 @@ static inline __attribute__((always_inline)) void search_lanes(struct touchstone
 			for (int lane = 0; lane < LANES; lane++)
 				for (int axis = 0; axis < 3; axis++)
 					index[axis][lane] += entry_image(candidate[k + lane], axis) * engine->places[axis];
-		transpose(field);
+		transpose_lanes(field);
 
 		lanes wait = (self->time - field[6]) + (self->page - field[7]);
 		lane_mask self_flies = wait < 0;
@@ -126,17 +128,13 @@ static inline __attribute__((always_inline)) void search_lanes(struct touchstone
 		consider_moment(engine, i, moment_on(engine, self->page, first), TOUCHSTONE_CONTACT, candidate[entry], plan);
 }
 
-__attribute__((target("arch=x86-64-v4"))) static void search_512(struct touchstone_engine *engine, uint32_t i,
-																 size_t candidates, struct plan *plan)
-{
-	search_lanes(engine, i, candidates, plan);
-}
-
+#ifdef __x86_64__
 __attribute__((target("arch=x86-64-v3"))) static void search_256(struct touchstone_engine *engine, uint32_t i,
 																 size_t candidates, struct plan *plan)
 {
 	search_lanes(engine, i, candidates, plan);
 }
+#endif
 
 static void search_128(struct touchstone_engine *engine, uint32_t i, size_t candidates, struct plan *plan)
 {
@@ -147,7 +145,9 @@ static void search_128(struct touchstone_engine *engine, uint32_t i, size_t cand
 static pair_search *choose_pairs(const struct touchstone_engine *engine)
 {
 	if (engine->accelerated || engine->method->ball_ball != stable_ball_ball) return consider_pairs;
-	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-		return search_512;
-	return __builtin_cpu_supports("avx2") ? search_256 : search_128;
+#ifdef __x86_64__
+	if (has_avx512()) return search_512;
+	if (__builtin_cpu_supports("avx2")) return search_256;
+#endif
+	return search_128;
 }

@@ -13,7 +13,6 @@ static void cross(struct touchstone_engine *engine, uint32_t i)
 	int axis = (home->next - 1) / 2, side = (home->next - 1) % 2 ? 1 : -1;
 	int cell = home->cell[axis] + side, last = engine->cells.count[axis];
 	bool wraps = cell < 1 || cell > last;
-	engine->lookups++;
 	cells_remove(&engine->cells, home->cell, i);
 	if (wraps) {
 		cell -= side * last;
@@ -81,42 +80,100 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 	schedule(engine, i);
 }
 
+static const uint32_t beyond_cache = 20000; /* particles whose bodies and cells fill a second-level cache */
+
+/* A day has been opened: fetches what its events will read, while earlier ones are worked on. A processor cannot guess
+ * these addresses, and waiting for memory is most of the time of a large scene. */
+static void anticipate(const struct touchstone_engine *engine)
+{
+	const struct agenda *agenda = &engine->agenda;
+	uint32_t particle[2 * 64];
+	size_t particles = 0;
+	for (size_t e = 0; e < agenda->size && particles < 2 * 64 - 1; e++) {
+		const struct entry *entry = &agenda->heap[e];
+		particle[particles++] = entry->note.particle;
+		if (entry->kind == 1 + TOUCHSTONE_CONTACT) particle[particles++] = entry_particle(entry->partner);
+	}
+	for (size_t p = 0; p < particles; p++) {
+		__builtin_prefetch(&engine->home[particle[p]]);
+		__builtin_prefetch(&engine->appointment[particle[p]]);
+		__builtin_prefetch(&engine->body[particle[p]]);
+	}
+	for (size_t p = 0; p < particles; p++) {
+		const uint32_t *cell = engine->cells.entry + cells_index(&engine->cells, engine->home[particle[p]].cell);
+		for (int row = 0; row < engine->cells.rows; row++) __builtin_prefetch(cell + engine->cells.row[row]);
+	}
+	for (size_t p = 0; p < particles; p++) {
+		size_t neighbours = cells_around(&engine->cells, engine->home[particle[p]].cell, engine->candidate);
+		for (size_t n = 0; n < neighbours; n++) {
+			__builtin_prefetch(&engine->body[entry_particle(engine->candidate[n])]);
+			__builtin_prefetch(&engine->place[entry_particle(engine->candidate[n])]);
+		}
+	}
+}
+
+/* Takes the engine to a time at which nothing happens. */
+static void wait_until(struct touchstone_engine *engine, double time)
+{
+	double page = time >= engine->page_length ? floor(time / engine->page_length) * engine->page_length : 0;
+	engine->now = (struct moment){page, from_double(time - page)};
+}
+
+/* When the earliest entry of the agenda falls due. */
+static double due(const struct touchstone_engine *engine, const struct entry *entry)
+{
+	if (entry->kind) {
+		const struct appointment *appointment = &engine->appointment[entry->note.particle];
+		return appointment->page + to_double(appointment->time);
+	}
+	return engine->agenda.today * engine->agenda.day; /* of bookkeeping the day is near enough */
+}
+
+/* So many looks in a row without an event, and the particles may as well never meet. */
+static uint64_t patience(const struct touchstone_engine *engine)
+{
+	return (UINT64_C(1) << 24) + UINT64_C(64) * engine->count;
+}
+
 static enum touchstone_verdict engine_run(struct touchstone_engine *engine, const struct touchstone_limits *limits,
 										  const struct touchstone_observer *observer)
 {
 	struct agenda *agenda = &engine->agenda;
-	uint64_t left = UINT64_MAX - engine->events;
+	uint64_t left = UINT64_MAX - engine->events, looks = 0;
 	uint64_t last = engine->events + (limits->events < left ? limits->events : left);
 	engine->observer = observer;
 	while (engine->verdict == TOUCHSTONE_DONE) {
 		if (agenda->size == 0) {
 			bool turned = false;
+			if (limits->stop && *limits->stop) break;
 			if (!agenda_open(agenda, engine, &turned)) break;
 			if (turned) {
 				look_over(engine);
 				continue;
 			}
+			if (engine->count > beyond_cache) anticipate(engine);
 		}
 		struct entry entry = agenda->heap[0];
-		uint32_t i = entry.particle;
-		if (!entry_holds(engine, &entry)) {
+		uint32_t i = entry.note.particle;
+		if (!note_holds(engine, entry.note)) {
 			heap_drop(agenda, engine);
-		} else if (engine->home[i].next != NEXT_IS_PHYSICAL) {
-			heap_drop(agenda, engine);
-			cross(engine, i);
-		} else if (stale(engine, i)) {
-			heap_drop(agenda, engine);
+		} else if (due(engine, &entry) > limits->time) {
+			wait_until(engine, limits->time);
+			break;
+		} else if (engine->home[i].next != NEXT_IS_PHYSICAL || stale(engine, i)) {
+			if (++looks > patience(engine)) break;
 			engine->lookups++;
-			predict(engine, i);
-			schedule(engine, i);
+			heap_drop(agenda, engine);
+			if (engine->home[i].next != NEXT_IS_PHYSICAL) {
+				cross(engine, i);
+			} else {
+				predict(engine, i);
+				schedule(engine, i);
+			}
 		} else if (engine->events == last) {
 			break;
-		} else if (engine->appointment[i].page + to_double(engine->appointment[i].time) > limits->time) {
-			double page = limits->time >= engine->page_length ? floor(limits->time / engine->page_length) : 0;
-			if (page > 0) page *= engine->page_length;
-			engine->now = (struct moment){page, from_double(limits->time - page)};
-			break;
 		} else {
+			looks = 0;
 			heap_drop(agenda, engine);
 			execute(engine, i);
 		}

@@ -164,33 +164,19 @@ static double leaving(const struct touchstone_engine *engine, uint32_t i, double
 	return soonest;
 }
 
-/* Puts the next thing that happens to a particle on the agenda. What was there for it no longer holds. */
-static void schedule(struct touchstone_engine *engine, uint32_t i)
-{
-	struct appointment *appointment = &engine->appointment[i];
-	struct home *home = &engine->home[i];
-	double page = 0, left = leaving(engine, i, &page, &home->next);
-	struct entry entry = {.particle = i, .stamp = ++appointment->stamp};
-	bool meets = home->meets != MEETS_NOTHING;
-	if (meets && (left == INFINITY || appointment->page < page ||
-				  (appointment->page == page && double_below(appointment->time) <= left))) {
-		page = appointment->page;
-		entry.time = appointment->time;
-		entry.partner = appointment->partner;
-		entry.kind = UINT32_C(1) + home->meets;
-		home->next = NEXT_IS_PHYSICAL;
-	} else if (left < INFINITY) {
-		entry.time = from_double(left);
-	} else {
-		return;
-	}
-	agenda_push(&engine->agenda, engine, page, entry);
-}
-
-static bool entry_holds(const void *context, const struct entry *entry)
+static bool note_holds(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	return engine->appointment[entry->particle].stamp == entry->stamp;
+	return engine->appointment[note.particle].stamp == note.stamp;
+}
+
+static struct entry entry_of(const void *context, struct note note)
+{
+	const struct touchstone_engine *engine = context;
+	const struct home *home = &engine->home[note.particle];
+	if (home->next != NEXT_IS_PHYSICAL) return (struct entry){.time = from_double(home->leaves), .note = note};
+	const struct appointment *appointment = &engine->appointment[note.particle];
+	return (struct entry){appointment->time, note, appointment->partner, UINT32_C(1) + home->meets};
 }
 
 static bool entry_first(const void *context, const struct entry *a, const struct entry *b)
@@ -198,6 +184,25 @@ static bool entry_first(const void *context, const struct entry *a, const struct
 	if (less(a->time, b->time)) return true;
 	if (less(b->time, a->time)) return false;
 	if (!a->kind || !b->kind) return a->kind < b->kind;
-	return rank_of(context, a->particle, a->partner, (uint8_t)(a->kind - 1)) <
-		   rank_of(context, b->particle, b->partner, (uint8_t)(b->kind - 1));
+	return rank_of(context, a->note.particle, a->partner, (uint8_t)(a->kind - 1)) <
+		   rank_of(context, b->note.particle, b->partner, (uint8_t)(b->kind - 1));
+}
+
+/* Puts the next thing that happens to a particle on the agenda. What was there for it no longer holds. */
+static void schedule(struct touchstone_engine *engine, uint32_t i)
+{
+	struct appointment *appointment = &engine->appointment[i];
+	struct home *home = &engine->home[i];
+	double page = 0;
+	bool meets = home->meets != MEETS_NOTHING;
+	appointment->stamp++;
+	home->leaves = leaving(engine, i, &page, &home->next);
+	if (meets && (home->leaves == INFINITY || appointment->page < page ||
+				  (appointment->page == page && double_below(appointment->time) <= home->leaves))) {
+		page = appointment->page;
+		home->next = NEXT_IS_PHYSICAL;
+	} else if (home->leaves == INFINITY) {
+		return;
+	}
+	agenda_push(&engine->agenda, engine, page, entry_of(engine, (struct note){i, appointment->stamp}));
 }

@@ -23,7 +23,7 @@ struct appointment {
 	uint32_t partner;         /* entry of the other particle, or number of the wall */
 	uint32_t partner_changes; /* of the other, when this was found: if it has had more, this is no longer true */
 	uint32_t changes;         /* of this particle: its events, and its moves to another image */
-	uint32_t stamp;           /* of its valid entry in the agenda */
+	uint32_t stamp;           /* of its valid note in the agenda */
 };
 
 enum { MEETS_NOTHING = 255 };
@@ -35,6 +35,7 @@ struct home {
 	uint8_t next;
 	uint32_t id;     /* the particle's number in the scene */
 	uint32_t stalls; /* events since time last moved for it */
+	double leaves;   /* its cell, if that comes next: since the page began */
 };
 
 struct moment {

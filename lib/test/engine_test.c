@@ -48,7 +48,7 @@ static struct touchstone_status run(const struct scene_recipe *recipe, const cha
 	if (!scene_build(recipe, SEED, &scene, &complaint)) fail_msg("%s %s", complaint.key, complaint.text);
 	struct touchstone_engine *engine = touchstone_create(&scene, arithmetic, method, error);
 	if (!engine) fail_msg("%s", error);
-	touchstone_run(engine, &(struct touchstone_limits){events, time}, NULL);
+	touchstone_run(engine, &(struct touchstone_limits){events, time, NULL}, NULL);
 	struct touchstone_status status;
 	touchstone_status(engine, &status);
 	touchstone_destroy(engine);
@@ -181,11 +181,11 @@ static void pieces_do_not_matter(void **state)
 		uint64_t piece = 1 + random_bits(&random) % 300;
 		if (piece > left) piece = left;
 		touchstone_status(engine, &status);
-		touchstone_run(engine, &(struct touchstone_limits){UINT64_MAX, status.time}, NULL); /* ties may go on */
+		touchstone_run(engine, &(struct touchstone_limits){UINT64_MAX, status.time, NULL}, NULL); /* ties may go on */
 		touchstone_status(engine, &status);
 		left = 5000 - status.events;
 		if (piece > left) piece = left;
-		touchstone_run(engine, &(struct touchstone_limits){piece, INFINITY}, NULL);
+		touchstone_run(engine, &(struct touchstone_limits){piece, INFINITY, NULL}, NULL);
 		left -= piece;
 	}
 	touchstone_status(engine, &status);
@@ -213,7 +213,7 @@ static void cradle_passes_one_ball_on(void **state)
 	for (int a = 0; a < 4; a++) {
 		struct touchstone_engine *engine = touchstone_create(&scene, arithmetics[a], "stable", error);
 		assert_non_null(engine);
-		assert_int_equal(touchstone_run(engine, &(struct touchstone_limits){1000, 10}, NULL), TOUCHSTONE_DONE);
+		assert_int_equal(touchstone_run(engine, &(struct touchstone_limits){1000, 10, NULL}, NULL), TOUCHSTONE_DONE);
 		struct touchstone_status status;
 		touchstone_status(engine, &status);
 		assert_int_equal(status.collisions, 5);
@@ -251,7 +251,7 @@ static void ball_comes_to_rest(void **state)
 		struct touchstone_engine *engine = touchstone_create(&scene, "binary64", "stable", error);
 		assert_non_null(engine);
 		struct touchstone_status status;
-		assert_int_equal(touchstone_run(engine, &(struct touchstone_limits){100000, INFINITY}, NULL),
+		assert_int_equal(touchstone_run(engine, &(struct touchstone_limits){100000, INFINITY, NULL}, NULL),
 						 TOUCHSTONE_COLLAPSED);
 		touchstone_status(engine, &status);
 		assert_int_equal(status.particles[0], 0);
@@ -299,7 +299,7 @@ static void column_collapses(void **state)
 	char error[160];
 	struct touchstone_engine *engine = touchstone_create(&scene, "binary64", "stable", error);
 	assert_non_null(engine);
-	assert_int_equal(touchstone_run(engine, &(struct touchstone_limits){10000000, INFINITY}, NULL),
+	assert_int_equal(touchstone_run(engine, &(struct touchstone_limits){10000000, INFINITY, NULL}, NULL),
 					 TOUCHSTONE_COLLAPSED);
 	struct touchstone_status status;
 	touchstone_status(engine, &status);

@@ -19,7 +19,8 @@ struct point {
 	enum touchstone_form form;
 	uint64_t collisions; /* wanted */
 	struct impact impact;
-	struct course_end end;
+	struct touchstone_status end;
+	bool stopped;
 	char error[320];
 };
 
@@ -30,8 +31,9 @@ struct campaign {
 	uint64_t all;
 };
 
-static void advance(void *context, uint64_t events)
+static void advance(void *context, uint64_t events, const struct touchstone_status *now)
 {
+	(void)now;
 	struct campaign *campaign = context;
 	uint64_t done = atomic_fetch_add(&campaign->done, events) + events;
 #pragma omp critical(figure_progress)
@@ -68,15 +70,11 @@ static void run_point(struct point *point, struct campaign *campaign)
 	if (!engine) return;
 	impact_begin(&point->impact, 53);
 	struct touchstone_observer observer = {impact_see, &point->impact};
-	struct course course = {
-		.equilibrate = equilibrate,
-		.limits = {point->collisions, INFINITY},
-		.observer = &observer,
-		.stop = campaign->setup->stop,
-		.progress = advance,
-		.context = campaign,
-	};
-	point->end = course_run(engine, &course);
+	struct watch watch = {campaign->setup->stop, advance, campaign};
+	struct touchstone_limits limits = {.events = point->collisions, .time = INFINITY};
+	point->stopped =
+		!course_equilibrate(engine, equilibrate, &watch) || !course_run(engine, &limits, &observer, &watch);
+	touchstone_status(engine, &point->end);
 	touchstone_destroy(engine);
 }
 
@@ -157,8 +155,7 @@ static void add_table(struct result *result, const struct point *points)
 		table_number(table, point->density);
 		table_number(table, point->restitution);
 		table_count(table, impact->count);
-		table_text(table, "%s, t = %.6g", point->end.stopped ? "stopped" : verdicts[point->end.status.verdict],
-				   point->end.status.time);
+		table_text(table, "%s, t = %.6g", point->stopped ? "stopped" : verdicts[point->end.verdict], point->end.time);
 		table_number(table, (double)impact->measured.below / (double)impact->count);
 		table_number(table, (double)impact->exact.below / (double)impact->count);
 		table_text(table, "%.5f to %.5f", interval.low, interval.high);
@@ -277,7 +274,7 @@ struct result *figure_impact(const struct figure_setup *setup, char error[512])
 			snprintf(error, 512, "%s", points[i].error);
 			goto fail;
 		}
-		stopped |= points[i].end.stopped || !points[i].impact.count;
+		stopped |= points[i].stopped || !points[i].impact.count;
 	}
 	result_paragraph(
 		result,

@@ -3,50 +3,53 @@
 #include <math.h>
 #include <time.h>
 
-enum { SLICE = 16384 };
-
-double course_clock(void)
+static double clock_now(void)
 {
 	struct timespec now;
 	clock_gettime(CLOCK_MONOTONIC, &now);
 	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Runs to a limit, slice by slice; true when it was stopped on the way. */
-static bool run_slices(struct touchstone_engine *engine, const struct course *course, struct touchstone_limits limits,
-					   const struct touchstone_observer *observer)
+bool course_run(struct touchstone_engine *engine, const struct touchstone_limits *limits,
+				const struct touchstone_observer *observer, const struct watch *watch)
 {
-	uint64_t done = 0;
-	while (done < limits.events) {
-		if (course->stop && *course->stop) return true;
-		uint64_t left = limits.events - done, slice = left < SLICE ? left : SLICE;
-		struct touchstone_status before, after;
-		touchstone_status(engine, &before);
-		enum touchstone_verdict verdict =
-			touchstone_run(engine, &(struct touchstone_limits){slice, limits.time}, observer);
-		touchstone_status(engine, &after);
-		uint64_t executed = after.events - before.events;
-		done += executed;
-		if (course->progress) course->progress(course->context, executed);
-		if (verdict != TOUCHSTONE_DONE || executed < slice) return false;
+	struct touchstone_status now;
+	touchstone_status(engine, &now);
+	uint64_t slice = 256, left = limits->events;
+	while (left > 0) {
+		if (watch && watch->stop && *watch->stop) return false;
+		struct touchstone_limits part = *limits;
+		part.events = slice < left ? slice : left;
+		if (watch) part.stop = watch->stop;
+		uint64_t events = now.events;
+		double clock = clock_now();
+		touchstone_run(engine, &part, observer);
+		touchstone_status(engine, &now);
+		uint64_t executed = now.events - events;
+		left -= executed;
+		if (watch && watch->progress) watch->progress(watch->context, executed, &now);
+		if (now.verdict != TOUCHSTONE_DONE || executed < part.events) break;
+		double took = clock_now() - clock;
+		if (took < 0.05) slice *= 2;
+		if (took > 0.2 && slice > 1) slice /= 2;
 	}
-	return false;
+	return !(watch && watch->stop && *watch->stop && left > 0);
 }
 
-struct course_end course_run(struct touchstone_engine *engine, const struct course *course)
+uint64_t course_events(double collisions, size_t particles)
 {
-	struct course_end end = {.stopped = false};
-	if (course->equilibrate > 0) {
-		touchstone_status(engine, &end.status);
-		double events = ceil(course->equilibrate * end.status.count / 2); /* a collision is one event of two */
-		touchstone_elastic(engine, true);
-		end.stopped = run_slices(engine, course, (struct touchstone_limits){(uint64_t)events, INFINITY}, NULL);
-		touchstone_elastic(engine, false);
-		touchstone_recount(engine);
-	}
-	double begin = course_clock();
-	if (!end.stopped) end.stopped = run_slices(engine, course, course->limits, course->observer);
-	end.seconds = course_clock() - begin;
-	touchstone_status(engine, &end.status);
-	return end;
+	double events = ceil(collisions * (double)particles / 2);
+	return events < 0x1p63 ? (uint64_t)events : UINT64_MAX;
+}
+
+bool course_equilibrate(struct touchstone_engine *engine, double collisions, const struct watch *watch)
+{
+	struct touchstone_status status;
+	touchstone_status(engine, &status);
+	struct touchstone_limits limits = {.events = course_events(collisions, status.count), .time = INFINITY};
+	touchstone_elastic(engine, true);
+	bool through = course_run(engine, &limits, NULL, watch);
+	touchstone_elastic(engine, false);
+	touchstone_recount(engine);
+	return through;
 }

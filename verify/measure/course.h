@@ -1,29 +1,26 @@
-/* The course of a run: an engine made for a scene, elastic equilibration, then events in slices, so that a run can be
- * watched and stopped. */
+/* The course of a run: slices of events short enough to be watched and stopped, and elastic equilibration before. */
 #ifndef VERIFY_COURSE_H
 #define VERIFY_COURSE_H
 
 #include "touchstone.h"
 
-struct course {
-	double equilibrate; /* elastic collisions per particle before counting starts */
-	struct touchstone_limits limits;
-	const struct touchstone_observer *observer;       /* of what is counted; may be NULL */
-	const volatile int *stop;                         /* non-zero: stop after the slice at hand; may be NULL */
-	void (*progress)(void *context, uint64_t events); /* told how many more events were executed; may be NULL */
+/* Who looks on. All parts may be 0. */
+struct watch {
+	const volatile int *stop; /* non-zero: stop after the slice at hand */
+	/* Told after each slice how many more events were executed, and where the run now is. */
+	void (*progress)(void *context, uint64_t more, const struct touchstone_status *now);
 	void *context;
 };
 
-struct course_end {
-	struct touchstone_status status;
-	bool stopped;   /* before it had come to an end */
-	double seconds; /* of wall time, for what was counted */
-};
+/* Runs an engine until a limit is reached or the verdict is no longer DONE: true; or until it is stopped: false. Slices
+ * last about a tenth of a second, whatever the arithmetic. */
+bool course_run(struct touchstone_engine *engine, const struct touchstone_limits *limits,
+				const struct touchstone_observer *observer, const struct watch *watch);
 
-/* Runs an engine through a course. May be called again with `equilibrate` 0 to go on. */
-struct course_end course_run(struct touchstone_engine *engine, const struct course *course);
+/* Elastic collisions, so many per particle; then counting starts. False when stopped on the way. */
+bool course_equilibrate(struct touchstone_engine *engine, double collisions, const struct watch *watch);
 
-/* Seconds on a clock that never jumps. */
-double course_clock(void);
+/* Events in which each of so many particles has so many collisions: two particles share one. */
+uint64_t course_events(double collisions, size_t particles);
 
 #endif

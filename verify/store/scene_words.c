@@ -345,7 +345,7 @@ static bool read_run(struct scene_file *file, char *error)
 	file->method = words->method ? words->method : "stable";
 	file->arithmetic = words->arithmetic ? words->arithmetic : "binary64";
 	file->seed = 1;
-	file->limits = (struct touchstone_limits){UINT64_MAX, INFINITY};
+	file->limits = (struct touchstone_limits){UINT64_MAX, INFINITY, NULL};
 	if (words->form) file->recipe.form = (enum touchstone_form) * words->form;
 	if (words->search) file->recipe.search = (enum touchstone_search) * words->search;
 	return read_count(file, "seed", words->seed, 0, UINT64_MAX, &file->seed, error) &&

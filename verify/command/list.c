@@ -1,0 +1,179 @@
+/* touchstone list: what there is, with one line each. */
+#include "command/command.h"
+
+#include <argp.h>
+#include <dirent.h>
+#include <errno.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command/cases.h"
+#include "store/scene_file.h"
+#include "touchstone.h"
+
+/* What the library's names mean; bits: 0 where the name says them. */
+static const struct {
+	const char *name, *about;
+	int bits;
+} arithmetics[] = {
+	{"short:P", "binary64 operations each rounded to P significant bits, P from 4 to 25", 0},
+	{"binary32", "IEEE single precision: 24 significant bits", 24},
+	{"binary64", "IEEE double precision, the production engine: 53 significant bits", 53},
+	{"extended", "x87 long double: 64 significant bits", 64},
+	{"twin", "double-double, the sum of two doubles: about 106 significant bits", 106},
+	{"binary128", "IEEE quadruple precision, in software: 113 significant bits", 113},
+	{"mpfr:P", "GNU MPFR with P significant bits, P from 2 to 1024, and exponents without end", 0},
+};
+enum { ARITHMETICS = sizeof arithmetics / sizeof *arithmetics };
+
+static const struct figure_entry methods[] = {
+	{"stable", "2014 paper, algorithms 1 and 2: an event when bodies touch or overlap, and approach"},
+	{"naive", "2014 paper, eq. 12 and section 3: textbook roots, whatever the rounding made of them"},
+};
+enum { METHODS = sizeof methods / sizeof *methods };
+
+int arithmetic_bits(const char *name)
+{
+	const char *colon = strchr(name, ':');
+	if (colon) return atoi(colon + 1);
+	for (int a = 0; a < ARITHMETICS; a++)
+		if (strcmp(arithmetics[a].name, name) == 0) return arithmetics[a].bits;
+	return 0;
+}
+
+static void print(const char *name, const char *about)
+{
+	printf("  %-18s  %s\n", name, about);
+}
+
+static bool list_arithmetics(const char *folder)
+{
+	(void)folder;
+	const char *name;
+	for (size_t n = 0; (name = touchstone_arithmetic_name(n)); n++) {
+		const char *about = "";
+		for (int a = 0; a < ARITHMETICS; a++)
+			if (strcmp(arithmetics[a].name, name) == 0) about = arithmetics[a].about;
+		print(name, about);
+	}
+	return true;
+}
+
+static bool list_methods(const char *folder)
+{
+	(void)folder;
+	const char *name;
+	for (size_t n = 0; (name = touchstone_method_name(n)); n++) {
+		const char *about = "";
+		for (int m = 0; m < METHODS; m++)
+			if (strcmp(methods[m].name, name) == 0) about = methods[m].about;
+		print(name, about);
+	}
+	return true;
+}
+
+static bool list_figures(const char *folder)
+{
+	(void)folder;
+	for (const struct figure_entry *figure = figures; figure->name; figure++) print(figure->name, figure->about);
+	return true;
+}
+
+static int is_scene(const struct dirent *entry)
+{
+	const char *ending = strrchr(entry->d_name, '.');
+	return *entry->d_name != '.' && ending && strcmp(ending, ".yaml") == 0;
+}
+
+/* A scene that cannot be read is said so; the others are listed all the same. */
+static bool list_case(const char *folder, const char *base)
+{
+	char *path, error[STORE_ERROR];
+	if (asprintf(&path, "%s/%s", folder, base) < 0) return false;
+	struct scene_file *file = scene_file_open(path, 0, NULL, error);
+	free(path);
+	if (file)
+		print(file->name, file->title);
+	else
+		refuse("%s", error);
+	scene_file_close(file);
+	return file;
+}
+
+static bool list_cases(const char *folder)
+{
+	struct dirent **entries;
+	int count = scandir(folder, &entries, is_scene, versionsort);
+	if (count < 0) {
+		refuse("--cases: %s: cannot be read: %s; accepted: a folder with scenes", folder, strerror(errno));
+		return false;
+	}
+	bool good = true;
+	for (int e = 0; e < count; e++) {
+		good &= list_case(folder, entries[e]->d_name);
+		free(entries[e]);
+	}
+	free(entries);
+	return good;
+}
+
+static const struct kind {
+	const char *name;
+	bool (*list)(const char *folder);
+} kinds[] = {
+	{"cases", list_cases},
+	{"methods", list_methods},
+	{"arithmetics", list_arithmetics},
+	{"figures", list_figures},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+struct wish {
+	const struct kind *kind; /* NULL: all */
+	const char *folder;
+};
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+	struct wish *wish = state->input;
+	switch (key) {
+	case 'c':
+		wish->folder = argument;
+		return 0;
+	case ARGP_KEY_ARG:
+		if (wish->kind) refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, figures");
+		for (int k = 0; k < KINDS; k++)
+			if (strcmp(kinds[k].name, argument) == 0) wish->kind = &kinds[k];
+		if (!wish->kind)
+			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, figures", argument);
+		return 0;
+	default:
+		return ARGP_ERR_UNKNOWN;
+	}
+}
+
+int command_list(int argc, char **argv)
+{
+	static const struct argp_option options[] = {
+		{"cases", 'c', "DIR", 0, "Folder of the cases (cases, or the one Touchstone was built from)", 0}, {0}};
+	static const struct argp argp = {
+		.options = options,
+		.parser = parse,
+		.args_doc = "[cases|methods|arithmetics|figures]",
+		.doc = "Lists what there is, with one line each: scenes that `run` knows by name, methods and arithmetics, "
+			   "figures "
+			   "that `reproduce` makes.\vExample: touchstone list methods",
+	};
+	struct wish wish = {0};
+	argp_parse(&argp, argc, argv, 0, NULL, &wish);
+	const char *folder = cases_folder(wish.folder);
+	bool good = true;
+	for (int k = 0; k < KINDS; k++) {
+		if (wish.kind && wish.kind != &kinds[k]) continue;
+		if (!wish.kind) printf("%s\n", kinds[k].name);
+		good &= kinds[k].list(folder);
+	}
+	return good ? STATUS_WELL : STATUS_REFUSED;
+}

@@ -1,0 +1,162 @@
+#include "command/outcome.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "command/command.h"
+#include "command/interrupt.h"
+#include "measure/course.h"
+#include "store/extended_xyz.h"
+
+static const char *const verdicts[] = {
+	[TOUCHSTONE_DONE] = "done",
+	[TOUCHSTONE_COLLAPSED] = "collapsed",
+	[TOUCHSTONE_HALTED] = "halted",
+	[TOUCHSTONE_DIVERGED] = "diverged",
+};
+
+const char *outcome_verdict(const struct outcome *outcome)
+{
+	return outcome->interrupted ? "interrupted" : verdicts[outcome->status.verdict];
+}
+
+/* Gives the outcome a reason in words of our own. */
+__attribute__((format(printf, 2, 3))) static void reason(struct outcome *outcome, const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	vsnprintf(outcome->status.reason, sizeof outcome->status.reason, format, arguments);
+	va_end(arguments);
+}
+
+/* Elastic collisions until the start is forgotten. False when it did not get through. */
+static bool equilibrate(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
+						struct simulation_progress *progress, uint64_t *executed)
+{
+	struct touchstone_limits limits = {.events = course_events(plan->file->equilibrate, outcome->particles),
+									   .time = INFINITY};
+	uint64_t then = plan->limits.events < UINT64_MAX ? plan->limits.events : 0;
+	touchstone_elastic(simulation->engine, true);
+	outcome->interrupted = !simulation_advance(simulation, &limits, NULL, progress, then);
+	touchstone_elastic(simulation->engine, false);
+	touchstone_status(simulation->engine, &outcome->status);
+	*executed = outcome->status.events;
+	if (!outcome->interrupted && outcome->status.verdict == TOUCHSTONE_DONE) return true;
+	char why[sizeof outcome->status.reason];
+	memcpy(why, outcome->status.reason, sizeof why);
+	touchstone_recount(simulation->engine);
+	touchstone_status(simulation->engine, &outcome->status);
+	if (outcome->interrupted)
+		reason(outcome, "stopped by a signal after %llu events of equilibration", (unsigned long long)*executed);
+	else
+		reason(outcome, "during equilibration: %.130s", why);
+	outcome->time_begun = outcome->status.time;
+	return false;
+}
+
+static void measure(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
+					struct simulation_progress *progress, uint64_t before)
+{
+	struct touchstone_observer observer = {impact_see, outcome->impact};
+	struct touchstone_limits limits = plan->limits;
+	touchstone_recount(simulation->engine);
+	touchstone_status(simulation->engine, &outcome->status);
+	outcome->conservation = plan->conservation;
+	outcome->time_begun = outcome->status.time;
+	limits.time += outcome->time_begun;
+	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
+	double clock = progress_clock();
+	outcome->interrupted =
+		!simulation_advance(simulation, &limits, outcome->impact ? &observer : NULL, progress, before);
+	outcome->wall_seconds = progress_clock() - clock;
+	touchstone_status(simulation->engine, &outcome->status);
+	if (outcome->interrupted)
+		reason(outcome, "stopped by a signal after %llu events, at t = %.17g",
+			   (unsigned long long)outcome->status.events, outcome->status.time);
+	else if (outcome->status.verdict == TOUCHSTONE_DONE && outcome->status.events < limits.events &&
+			 limits.time == INFINITY)
+		reason(outcome, "no event is left after t = %.17g", outcome->status.time);
+	if (plan->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
+}
+
+/* Writes the particles as they are now; their species and the box are those of the scene. */
+static bool write_particles(const struct simulation *simulation, const char *path, char error[STORE_ERROR])
+{
+	struct touchstone_scene scene = simulation->scene;
+	struct touchstone_particle *particles = malloc(scene.particle_count * sizeof *particles);
+	if (!particles) {
+		snprintf(error, STORE_ERROR, "%.200s: no memory for %zu particles", path, scene.particle_count);
+		return false;
+	}
+	for (uint32_t p = 0; p < scene.particle_count; p++) {
+		particles[p].species = scene.particles[p].species;
+		touchstone_state(simulation->engine, p, particles[p].position, particles[p].velocity);
+	}
+	scene.particles = particles;
+	bool written = extended_xyz_write(path, &scene, error);
+	free(particles);
+	return written;
+}
+
+/* From a start state to an outcome. */
+static void find(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
+				 struct simulation_progress *progress)
+{
+	if (plan->impact) {
+		outcome->impact = malloc(sizeof *outcome->impact);
+		outcome->failed = !outcome->impact;
+		if (outcome->failed) {
+			snprintf(outcome->error, STORE_ERROR, "out of memory");
+			return;
+		}
+		impact_begin(outcome->impact, arithmetic_bits(plan->file->arithmetic));
+	}
+	uint64_t before = 0;
+	bool ready = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
+	if (ready) measure(outcome, plan, simulation, progress, before);
+	if (plan->xyz) write_particles(simulation, plan->xyz, outcome->error);
+}
+
+void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t seed,
+				  struct simulation_progress *progress)
+{
+	*outcome = (struct outcome){.seed = seed, .particles = plan->file->recipe.particle_count};
+	outcome->interrupted = interrupted();
+	if (outcome->interrupted) {
+		reason(outcome, "stopped by a signal before it began");
+		return;
+	}
+	struct simulation simulation;
+	outcome->failed = !simulation_open(&simulation, plan->file, seed, outcome->error);
+	if (outcome->failed) return;
+	find(outcome, plan, &simulation, progress);
+	simulation_close(&simulation);
+}
+
+void outcome_free(struct outcome *outcome)
+{
+	free(outcome->impact);
+}
+
+uint64_t outcome_peak_memory(void)
+{
+	struct rusage usage;
+	getrusage(RUSAGE_SELF, &usage);
+	return (uint64_t)usage.ru_maxrss * 1024;
+}
+
+struct impact *outcome_impact(const struct outcome *outcomes, size_t count)
+{
+	struct impact *together = NULL;
+	for (size_t o = 0; o < count; o++) {
+		if (!outcomes[o].impact) continue; /* not begun */
+		if (together)
+			impact_merge(together, outcomes[o].impact);
+		else if ((together = malloc(sizeof *together)))
+			*together = *outcomes[o].impact;
+	}
+	return together;
+}

@@ -1,0 +1,88 @@
+/* What the command `run` finds out about one run, and how it is told.
+ *
+ * The JSON of `run --json` is one object:
+ *
+ *	scene, title, file     name of the scene, its title, the path it was read from
+ *	settings               list of the KEY=VALUE that overrode it
+ *	particles, dimensions, arithmetic, bits, method
+ *	seed ... impact        those of the first run, as below
+ *	peak_memory_bytes      of the whole program, with all runs
+ *	machine                processor, compiler and so on
+ *	explained              list of lines, with --explain
+ *	runs, together         with --runs R, R > 1: list of all runs, the first included; sums over them
+ *
+ * and of each run:
+ *
+ *	seed
+ *	events, collisions     physical events after equilibration, and those between two particles
+ *	lookups                bookkeeping: cells crossed and searches repeated
+ *	time_begun, time       when equilibration ended, and the last event (or the limit that was reached)
+ *	verdict, reason        done, collapsed, halted, diverged, interrupted; why, "" when a limit was reached
+ *	complete               false when the run was interrupted
+ *	digest                 16 hexadecimal digits
+ *	wall_seconds           without start and equilibration, with observers
+ *	collisions_per_second, bytes_per_particle
+ *	conservation           when measured: energy [first, last], momentum [[x, y, z] first, [x, y, z] last],
+ *	                       energy_scale, momentum_scale (see measure/conservation.h), energy_drift, momentum_drift
+ *	                       (relative to the scale), energy_drift_per_million, momentum_drift_per_million (collisions)
+ *	impact                 when measured: contacts; measured and exact, each with below, above, fraction_below,
+ *	                       fraction_below_interval (95 %), mean_ulp, deviation_ulp, least_ulp, most_ulp (ulp: the step
+ *	                       from the contact distance upwards), and bars, counts per representable number, of
+ *	                       which first_bar is how many numbers from contact the first stands
+ *
+ * Numbers that do not exist, such as the rate of no collisions, are null. */
+#ifndef VERIFY_OUTCOME_H
+#define VERIFY_OUTCOME_H
+
+#include <jansson.h>
+
+#include "command/simulation.h"
+#include "measure/conservation.h"
+#include "measure/impact.h"
+
+/* What is to be run, once or several times. */
+struct run_plan {
+	const char *path; /* of the scene file */
+	const struct scene_file *file;
+	struct touchstone_limits limits; /* after equilibration */
+	const char *const *settings;
+	size_t setting_count;
+	bool conservation, impact; /* measured? */
+	const char *xyz;           /* file for the final configuration, or NULL */
+};
+
+/* What became of one run. */
+struct outcome {
+	uint64_t seed;
+	struct touchstone_status status;
+	bool interrupted;
+	size_t particles;
+	double time_begun;   /* simulated time when equilibration ended */
+	double wall_seconds; /* without equilibration */
+	bool conservation;   /* measured, at begin and end: */
+	struct conservation conserved[2];
+	struct impact *impact;   /* NULL when not measured; freed by outcome_free */
+	bool failed;             /* there was no run */
+	char error[STORE_ERROR]; /* why it failed, or could not write its particles; "" otherwise */
+};
+
+/* Makes one run of the plan. */
+void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t seed,
+				  struct simulation_progress *progress);
+void outcome_free(struct outcome *outcome);
+
+/* done, collapsed, halted, diverged or interrupted; why is in its status. */
+const char *outcome_verdict(const struct outcome *outcome);
+
+/* Tells `count` outcomes of a plan: as a table on standard output; as JSON, with the lines of an explanation (or NULL,
+ * which stays the caller's), owned by the caller. */
+void outcome_print(const struct run_plan *plan, const struct outcome *outcomes, size_t count);
+json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes, size_t count, json_t *explained);
+
+/* The most memory this program has held so far, in bytes. */
+uint64_t outcome_peak_memory(void);
+
+/* All impacts of several outcomes; NULL when they were not measured. The caller frees it. */
+struct impact *outcome_impact(const struct outcome *outcomes, size_t count);
+
+#endif

@@ -1,0 +1,118 @@
+/* Outcomes as a short table for people. */
+#include "command/outcome.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "measure/interval.h"
+
+/* One line: what, and the rest as printf has it. */
+__attribute__((format(printf, 2, 3))) static void row(const char *what, const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	printf("%-14s  ", what);
+	vprintf(format, arguments);
+	va_end(arguments);
+	putchar('\n');
+}
+
+static double collisions_per_second(const struct outcome *outcome)
+{
+	return outcome->wall_seconds > 0 ? (double)outcome->status.collisions / outcome->wall_seconds : 0;
+}
+
+static void print_one(const struct outcome *outcome)
+{
+	const struct touchstone_status *status = &outcome->status;
+	row("seed", "%llu", (unsigned long long)outcome->seed);
+	row("events", "%llu, of which %llu between particles", (unsigned long long)status->events,
+		(unsigned long long)status->collisions);
+	row("time", "%.17g", status->time);
+	if (outcome->time_begun > 0) row("", "of which %.17g for equilibration", outcome->time_begun);
+	row("verdict", "%s%s%s", outcome_verdict(outcome), status->reason[0] ? ": " : "", status->reason);
+	row("digest", "%016llx", (unsigned long long)status->digest);
+	row("wall time", "%.3g s, %.4g collisions per second", outcome->wall_seconds, collisions_per_second(outcome));
+}
+
+static void print_each(const struct outcome *outcomes, size_t count)
+{
+	printf("\n%20s  %12s  %12s  %12s  %-11s  %-16s  %8s  %12s\n", "seed", "events", "collisions", "time", "verdict",
+		   "digest", "wall / s", "collisions/s");
+	for (size_t o = 0; o < count; o++) {
+		const struct touchstone_status *status = &outcomes[o].status;
+		printf("%20llu  %12llu  %12llu  %12.6g  %-11s  %016llx  %8.3f  %12.4g\n", (unsigned long long)outcomes[o].seed,
+			   (unsigned long long)status->events, (unsigned long long)status->collisions, status->time,
+			   outcome_verdict(&outcomes[o]), (unsigned long long)status->digest, outcomes[o].wall_seconds,
+			   collisions_per_second(&outcomes[o]));
+	}
+	for (size_t o = 0; o < count; o++)
+		if (outcomes[o].status.reason[0])
+			printf("seed %llu: %s\n", (unsigned long long)outcomes[o].seed, outcomes[o].status.reason);
+	putchar('\n');
+}
+
+static void print_histogram(const char *what, const struct impact_histogram *histogram, uint64_t count)
+{
+	struct interval interval = interval_of_proportion(histogram->below, count);
+	row(what, "%.4f %% below contact (95 %%: %.4f to %.4f), mean %.4g ulp, deviation %.4g ulp, %.4g to %.4g ulp",
+		100 * (double)histogram->below / (double)count, 100 * interval.low, 100 * interval.high,
+		impact_mean(histogram, count), impact_deviation(histogram, count), histogram->least, histogram->most);
+}
+
+/* A relative change, and what that makes in 10^6 collisions; where either makes no sense it is left out. */
+static void print_drift(const char *what, double drift, double collisions)
+{
+	if (!isfinite(drift))
+		row(what, "at rest at first, so no relative change");
+	else if (collisions > 0)
+		row(what, "relative change %.3g, %.3g in 10^6 collisions", drift, drift / collisions * 1e6);
+	else
+		row(what, "relative change %.3g", drift);
+}
+
+static void print_conservation(const struct run_plan *plan, const struct outcome *outcome)
+{
+	const struct conservation *begin = &outcome->conserved[0], *end = &outcome->conserved[1];
+	double collisions = (double)outcome->status.collisions;
+	const struct scene_recipe *recipe = &plan->file->recipe;
+	bool pushed = recipe->wall_count > 0;
+	for (int axis = 0; axis < 3; axis++) pushed |= recipe->boundary[axis] == SCENE_WALLS || recipe->acceleration[axis];
+	row("energy", "%.17g at first, %.17g at last", begin->energy[0], end->energy[0]);
+	print_drift("", conservation_energy_drift(begin, end), collisions);
+	print_drift("momentum", conservation_momentum_drift(begin, end), collisions);
+	if (pushed) row("", "walls and gravity change it");
+}
+
+static void print_measures(const struct run_plan *plan, const struct outcome *outcomes, size_t count)
+{
+	struct impact *impact = outcome_impact(outcomes, count);
+	if (impact && impact->count > 0) {
+		row("impacts", "%llu, by their distance", (unsigned long long)impact->count);
+		print_histogram("  as computed", &impact->measured, impact->count);
+		print_histogram("  exactly", &impact->exact, impact->count);
+	}
+	free(impact);
+	for (size_t o = 0; o < count; o++) {
+		if (outcomes[o].conservation && count > 1) row("seed", "%llu", (unsigned long long)outcomes[o].seed);
+		if (outcomes[o].conservation) print_conservation(plan, &outcomes[o]);
+	}
+}
+
+void outcome_print(const struct run_plan *plan, const struct outcome *outcomes, size_t count)
+{
+	const struct scene_file *file = plan->file;
+	row("scene", "%s: %s", file->name, file->title);
+	row("particles", "%zu in %d dimension%s", outcomes->particles, file->recipe.dimensions,
+		file->recipe.dimensions > 1 ? "s" : "");
+	row("arithmetic", "%s", file->arithmetic);
+	row("method", "%s", file->method);
+	if (count == 1)
+		print_one(outcomes);
+	else
+		print_each(outcomes, count);
+	print_measures(plan, outcomes, count);
+	row("memory", "%.0f bytes per particle, %.1f MB at most in all",
+		(double)outcomes->status.memory / (double)outcomes->particles, (double)outcome_peak_memory() / 1e6);
+}

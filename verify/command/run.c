@@ -1,0 +1,273 @@
+/* touchstone run: one scene, once or several times. */
+#include "command/command.h"
+
+#include <argp.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command/cases.h"
+#include "command/interrupt.h"
+#include "command/outcome.h"
+#include "command/output.h"
+#include "measure/course.h"
+
+static const double default_meetings = 100; /* collisions per particle, where nothing limits a run */
+
+/* Options without a letter; the first ones are scene keys of the same name. */
+enum { ARITHMETIC = 256, METHOD, EVENTS, TIME, SEED, SET, EXPLAIN, JSON, XYZ, MEASURE, RUNS, THREADS, CASES };
+
+static const struct argp_option options[] = {
+	{"arithmetic", ARITHMETIC, "A", 0,
+	 "Arithmetic of the engine, such as binary64 or mpfr:200; `touchstone list` has all", 1},
+	{"method", METHOD, "M", 0, "Method that finds events: stable, naive", 1},
+	{"events", EVENTS, "N", 0,
+	 "Events to execute, such as 1e6 (those of the scene, or else 100 per particle). With 0 nothing is run, not even "
+	 "equilibration",
+	 1},
+	{"time", TIME, "T", 0, "Simulated time to run for, after equilibration", 1},
+	{"seed", SEED, "S", 0, "Seed of the start state", 1},
+	{"set", SET, "KEY=VALUE", 0,
+	 "Override any key of the scene, such as density=0.9; may be repeated, the last one counts", 1},
+	{"explain", EXPLAIN, 0, 0, "First say what is modelled and what is left out. With --events 0, say only that", 2},
+	{"measure", MEASURE, "LIST", 0,
+	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum)", 2},
+	{"json", JSON, "FILE", 0, "Write what came of it as JSON; - for standard output, instead of the table", 2},
+	{"xyz", XYZ, "FILE", 0, "Write the particles at the end as extended XYZ", 2},
+	{"runs", RUNS, "R", 0, "Run R times, with the seeds S, S+1, ... (1)", 3},
+	{"threads", THREADS, "K", 0, "Run K of them at a time (1); the results do not depend on it", 3},
+	{"cases", CASES, "DIR", 0, "Folder in which scenes are found by name", 4},
+	{0}};
+
+struct wish {
+	const char *scene, *json, *xyz, *folder;
+	bool explain, impact, conservation;
+	uint64_t runs, threads;
+	char **settings; /* KEY=VALUE, each from malloc */
+	size_t setting_count;
+};
+
+/* An option that is a key of the scene goes the way of --set. */
+static void add_setting(struct wish *wish, const char *key, const char *value)
+{
+	char *setting;
+	if (asprintf(&setting, "%s%s%s", key ? key : "", key ? "=" : "", value) < 0) refuse_usage("out of memory");
+	wish->settings[wish->setting_count++] = setting;
+}
+
+static void choose_measures(struct wish *wish, char *list)
+{
+	char *const names[] = {"impact", "conservation", NULL};
+	while (*list) {
+		char *word = list, *value;
+		switch (getsubopt(&list, names, &value)) {
+		case 0:
+			wish->impact = true;
+			break;
+		case 1:
+			wish->conservation = true;
+			break;
+		default:
+			refuse_option("measure", word, "impact, conservation, or both with a comma");
+		}
+	}
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+	struct wish *wish = state->input;
+	switch (key) {
+	case ARITHMETIC:
+	case METHOD:
+	case EVENTS:
+	case TIME:
+	case SEED:
+		add_setting(wish, options[key - ARITHMETIC].name, argument);
+		return 0;
+	case SET:
+		add_setting(wish, NULL, argument);
+		return 0;
+	case EXPLAIN:
+		wish->explain = true;
+		return 0;
+	case JSON:
+		wish->json = argument;
+		return 0;
+	case XYZ:
+		wish->xyz = argument;
+		return 0;
+	case MEASURE:
+		choose_measures(wish, argument);
+		return 0;
+	case RUNS:
+		wish->runs = option_count("runs", argument, 1, 100000);
+		return 0;
+	case THREADS:
+		wish->threads = option_count("threads", argument, 1, 1024);
+		return 0;
+	case CASES:
+		wish->folder = argument;
+		return 0;
+	case ARGP_KEY_ARG:
+		if (wish->scene) refuse_usage("run: '%.60s' is a second scene; accepted: one", argument);
+		wish->scene = argument;
+		return 0;
+	case ARGP_KEY_NO_ARGS:
+		refuse_usage("run: no scene; accepted: a scene file, or a case by its name, see touchstone list cases");
+	default:
+		return ARGP_ERR_UNKNOWN;
+	}
+}
+
+static void keep_line(void *lines, const char *text)
+{
+	json_array_append_new(lines, json_string(text));
+}
+
+/* How the engine goes about the scene: a list of lines, printed as well. NULL with a message. */
+static json_t *explain(const struct scene_file *file, FILE *stream, char error[STORE_ERROR])
+{
+	struct simulation simulation;
+	if (!simulation_open(&simulation, file, file->seed, error)) return NULL;
+	json_t *lines = json_array(), *line;
+	keep_line(lines, file->title);
+	if (*file->about) keep_line(lines, file->about);
+	touchstone_explain(simulation.engine, keep_line, lines);
+	simulation_close(&simulation);
+	size_t index;
+	json_array_foreach(lines, index, line) fprintf(stream, "%s\n", json_string_value(line));
+	fputs("\n", stream);
+	return lines;
+}
+
+/* Makes all runs; several at a time, each in its own engine. */
+static void make_runs(const struct run_plan *plan, const struct wish *wish, struct outcome *outcomes)
+{
+	struct simulation_progress progress = {progress_begin(plan->file->name, "events"), 0, (unsigned)wish->runs};
+	interrupt_watch();
+#pragma omp parallel for schedule(dynamic, 1) num_threads((int)wish->threads)
+	for (uint64_t run = 0; run < wish->runs; run++)
+		outcome_find(&outcomes[run], plan, plan->file->seed + run, &progress);
+	progress_end(&progress.line);
+}
+
+static bool limited(const struct scene_file *file)
+{
+	return file->limits.events < UINT64_MAX || file->limits.time < INFINITY;
+}
+
+/* Tells what came of the runs, and returns the exit status. */
+static int tell(const struct run_plan *plan, const struct wish *wish, const struct outcome *outcomes, json_t *explained)
+{
+	bool interrupted = false, broken = false;
+	for (size_t run = 0; run < wish->runs; run++) {
+		if (outcomes[run].failed) return refuse("%s", outcomes[run].error);
+		enum touchstone_verdict verdict = outcomes[run].status.verdict;
+		interrupted |= outcomes[run].interrupted;
+		broken |= verdict == TOUCHSTONE_HALTED || verdict == TOUCHSTONE_DIVERGED;
+	}
+	if (!limited(plan->file))
+		fprintf(stderr, "touchstone: neither events nor time given; ran %llu events, so that each particle meets %g\n",
+				(unsigned long long)plan->limits.events, default_meetings);
+	int status = interrupted ? STATUS_INTERRUPTED : broken ? STATUS_FINDING : STATUS_WELL;
+	if (*outcomes->error) status = refuse("%s", outcomes->error);
+	if (wish->json) {
+		char error[REPORT_ERROR];
+		json_t *json = outcome_json(plan, outcomes, wish->runs, explained);
+		if (!output_json(wish->json, json, error)) status = refuse("%s", error);
+		json_decref(json);
+	}
+	bool only_explained = explained && plan->limits.events == 0, taken = wish->json && strcmp(wish->json, "-") == 0;
+	if (!only_explained && !taken) outcome_print(plan, outcomes, wish->runs);
+	return status;
+}
+
+static int run_file(const struct wish *wish, const char *path, const struct scene_file *file)
+{
+	char error[STORE_ERROR];
+	if (!simulation_names(file, error)) return refuse("%s", error);
+	if (file->seed > INT64_MAX - wish->runs) {
+		scene_file_refuse(file, error, "seed", "%llu; accepted: with %llu runs, up to %llu",
+						  (unsigned long long)file->seed, (unsigned long long)wish->runs,
+						  (unsigned long long)(INT64_MAX - wish->runs));
+		return refuse("%s", error);
+	}
+	struct touchstone_limits limits = file->limits;
+	if (!limited(file)) limits.events = course_events(default_meetings, file->recipe.particle_count);
+	const struct run_plan plan = {
+		.path = path,
+		.file = file,
+		.limits = limits,
+		.settings = (const char *const *)wish->settings,
+		.setting_count = wish->setting_count,
+		.impact = wish->impact,
+		.conservation = wish->conservation,
+		.xyz = wish->xyz,
+	};
+	json_t *explained = NULL;
+	FILE *stream = wish->json && strcmp(wish->json, "-") == 0 ? stderr : stdout;
+	if (wish->explain && !(explained = explain(file, stream, error))) return refuse("%s", error);
+
+	struct outcome *outcomes = calloc(wish->runs, sizeof *outcomes);
+	int status = STATUS_REFUSED;
+	if (outcomes) {
+		make_runs(&plan, wish, outcomes);
+		status = tell(&plan, wish, outcomes, explained);
+		for (size_t run = 0; run < wish->runs; run++) outcome_free(&outcomes[run]);
+	} else {
+		refuse("no memory for %llu runs", (unsigned long long)wish->runs);
+	}
+	free(outcomes);
+	json_decref(explained);
+	return status;
+}
+
+static int run(const struct wish *wish)
+{
+	char error[STORE_ERROR];
+	if (wish->xyz && (wish->runs > 1 || strcmp(wish->xyz, "-") == 0))
+		return refuse("--xyz: accepted: a file, and a single run");
+	if ((wish->json && !output_possible(wish->json, error)) || (wish->xyz && !output_possible(wish->xyz, error)))
+		return refuse("%s", error);
+	const char *folder = cases_folder(wish->folder);
+	char *path = cases_find(folder, wish->scene);
+	if (!path)
+		return refuse("%s: no such file, nor a case in %s; accepted: a scene file, or a name that `touchstone list "
+					  "cases` has",
+					  wish->scene, folder);
+	int status = STATUS_REFUSED;
+	struct scene_file *file = scene_file_open(path, wish->setting_count, (const char *const *)wish->settings, error);
+	if (file)
+		status = run_file(wish, path, file);
+	else
+		refuse("%s", error);
+	scene_file_close(file);
+	free(path);
+	return status;
+}
+
+int command_run(int argc, char **argv)
+{
+	static const struct argp argp = {
+		.options = options,
+		.parser = parse,
+		.args_doc = "SCENE",
+		.doc =
+			"Runs a scene and tells what became of it: how many events, its verdict, how fast it was, and a digest "
+			"that is the same for every compiler, optimisation and number of threads. SCENE is a file, or a case by "
+			"its name.\v"
+			"Verdicts: done, a limit was reached or no event is left; collapsed, events go on but time does not; "
+			"halted, the method has no answer; diverged, a number is no longer finite; interrupted, by Ctrl-C.\n\n"
+			"Exit status: 0 done or collapsed; 1 halted or diverged; 2 bad input; 130 interrupted, and what was done "
+			"by then is told all the same.\n\n"
+			"Example: touchstone run hard-spheres --set density=0.9 --events 1e6 --measure impact --json -",
+	};
+	struct wish wish = {.runs = 1, .threads = 1, .settings = calloc((size_t)argc, sizeof(char *))};
+	if (!wish.settings) return refuse("out of memory");
+	argp_parse(&argp, argc, argv, 0, NULL, &wish);
+	int status = run(&wish);
+	for (size_t s = 0; s < wish.setting_count; s++) free(wish.settings[s]);
+	free(wish.settings);
+	return status;
+}

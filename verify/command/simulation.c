@@ -1,0 +1,79 @@
+#include "command/simulation.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "command/interrupt.h"
+#include "measure/course.h"
+
+bool simulation_open(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
+					 char error[STORE_ERROR])
+{
+	struct scene_file seeded = *file; /* for reading only */
+	seeded.seed = seed;
+	if (!scene_file_build(&seeded, &simulation->scene, error)) return false;
+	char reason[160];
+	simulation->engine = touchstone_create(&simulation->scene, file->arithmetic, file->method, reason);
+	if (simulation->engine) return true;
+	snprintf(error, STORE_ERROR, "%.200s: %s", file->name, reason);
+	scene_free(&simulation->scene);
+	return false;
+}
+
+void simulation_close(struct simulation *simulation)
+{
+	touchstone_destroy(simulation->engine);
+	scene_free(&simulation->scene);
+}
+
+bool simulation_names(const struct scene_file *file, char error[STORE_ERROR])
+{
+	/* Dropping no balls at all asks for the names and nothing else. */
+	char reason[160];
+	if (!touchstone_drop(file->arithmetic, touchstone_method_name(0), NULL, 0, NULL, NULL, NULL, reason))
+		return scene_file_refuse(file, error, "arithmetic", "%s", reason);
+	if (!touchstone_drop(file->arithmetic, file->method, NULL, 0, NULL, NULL, NULL, reason))
+		return scene_file_refuse(file, error, "method", "%s", reason);
+	return true;
+}
+
+/* What one run's slices are reported to: the line of all runs, and what is to be expected of this one. */
+struct reporter {
+	struct simulation_progress *progress;
+	const struct touchstone_limits *limits;
+	double besides, begun; /* events in other calls; time at which this one began */
+	double done;           /* events of this call */
+};
+
+/* How many events a run has ahead and behind it; where only time limits it, what its pace so far lets expect. */
+static double expected(const struct reporter *reporter, double now)
+{
+	const struct touchstone_limits *limits = reporter->limits;
+	double pace = (limits->time - reporter->begun) / (now - reporter->begun);
+	double by_time = limits->time < INFINITY ? reporter->done * pace : INFINITY;
+	return fmin(limits->events < UINT64_MAX ? (double)limits->events : INFINITY, by_time);
+}
+
+static void report(void *context, uint64_t more, const struct touchstone_status *now)
+{
+	struct reporter *reporter = context;
+	struct simulation_progress *progress = reporter->progress;
+	reporter->done += (double)more;
+#pragma omp critical(simulation_progress)
+	{
+		progress->done += (double)more;
+		progress_show(&progress->line, progress->done,
+					  (reporter->besides + expected(reporter, now->time)) * progress->runs);
+	}
+}
+
+bool simulation_advance(struct simulation *simulation, const struct touchstone_limits *limits,
+						const struct touchstone_observer *observer, struct simulation_progress *progress,
+						uint64_t besides)
+{
+	struct touchstone_status begun;
+	touchstone_status(simulation->engine, &begun);
+	struct reporter reporter = {progress, limits, (double)besides, begun.time, 0};
+	struct watch watch = {interrupt_flag(), progress ? report : NULL, &reporter};
+	return course_run(simulation->engine, limits, observer, &watch);
+}

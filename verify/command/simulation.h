@@ -1,0 +1,37 @@
+/* One run of a scene, from its file to where it ends, with progress shown and Ctrl-C heeded on the way. */
+#ifndef VERIFY_SIMULATION_H
+#define VERIFY_SIMULATION_H
+
+#include "command/progress.h"
+#include "store/scene_file.h"
+
+struct simulation {
+	struct touchstone_scene scene;
+	struct touchstone_engine *engine;
+};
+
+/* Makes the scene of `file` with another seed, and the engine it asks for. False with a message, and nothing to close,
+ * when that cannot be. */
+bool simulation_open(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
+					 char error[STORE_ERROR]);
+void simulation_close(struct simulation *simulation);
+
+/* Whether the arithmetic and the method that `file` names exist; false with a message that says where they were named.
+ */
+bool simulation_names(const struct scene_file *file, char error[STORE_ERROR]);
+
+/* The progress of several runs, on one line for all. */
+struct simulation_progress {
+	struct progress line;
+	double done;   /* events */
+	unsigned runs; /* how many are to be made */
+};
+
+/* Runs until a limit is reached or the verdict is no longer DONE: true; or until an end is asked for: false. `besides`
+ * are the events that this run executes for the same progress in other calls, as far as that is known. Several threads
+ * may call it for one progress, which may be NULL. */
+bool simulation_advance(struct simulation *simulation, const struct touchstone_limits *limits,
+						const struct touchstone_observer *observer, struct simulation_progress *progress,
+						uint64_t besides);
+
+#endif
