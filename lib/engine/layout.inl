@@ -63,11 +63,15 @@ static bool make_cells(struct touchstone_engine *engine, const int count[3], uin
 /* Chooses the grid for the particles as they are now. */
 static bool lay_out_cells(struct touchstone_engine *engine)
 {
-	static const double occupancy = 0.6; /* particles per cell to aim at where they are dilute */
 	static const int most_per_axis = 60000;
-	double volume = 1, reach = engine->largest + engine->slack;
+	double volume = 1, content = engine->count, reach = engine->largest + engine->slack;
 	int count[3] = {1, 1, 1};
-	for (int axis = 0; axis < engine->dimensions; axis++) volume *= engine->box[axis];
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		volume *= engine->box[axis];
+		content *= engine->largest;
+	}
+	/* Where particles are far apart, larger cells: crossing one costs more than looking at more neighbours. */
+	double occupancy = 0.45 * pow(content / volume, -1.0 / 3);
 	double side = engine->wanted_cell > 0 ? engine->wanted_cell
 										  : pow(volume * occupancy / engine->count, 1.0 / engine->dimensions);
 	side = fmax(side, reach);

@@ -118,6 +118,7 @@ static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axi
  * acceleration, if it does so after `passed`; INFINITY if it does not. */
 static double crossing_time(double gap, double speed, double acceleration, double passed)
 {
+	if (acceleration == 0) return speed > 0 ? gap / speed : INFINITY;
 	double radicand = speed * speed + 2 * acceleration * gap;
 	if (radicand < 0) return acceleration < 0 ? INFINITY : fmax(passed, -speed / acceleration);
 	double end = sqrt(radicand);
@@ -135,23 +136,24 @@ static double leaving(const struct touchstone_engine *engine, uint32_t i, double
 	const struct home *home = &engine->home[i];
 	if (!engine->cells.entry) return INFINITY;
 	double time = to_double(body->time), soonest = INFINITY;
-	double passed = moment_double(engine->now) - (body->page + time);
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		double side = engine->cell_side[axis], speed = to_double(body->velocity[axis]);
 		double position = to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
 		double low = (home->cell[axis] - 1) * side - engine->box[axis] / 2, high = low + side;
-		int last = engine->cells.count[axis];
-		double gravity = engine->accelerated ? to_double(engine->acceleration[axis]) : 0;
-		bool closed_low = !engine->periodic[axis] && home->cell[axis] == 1;
-		bool closed_high = !engine->periodic[axis] && home->cell[axis] == last;
+		bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
+		bool closed_low = ends && home->cell[axis] == 1,
+			 closed_high = ends && home->cell[axis] == engine->cells.count[axis];
 		double up = INFINITY, down = INFINITY;
-		if (gravity == 0) {
-			if (speed > 0 && !closed_high) up = (high - position) / speed;
-			if (speed < 0 && !closed_low) down = (low - position) / speed;
-		} else {
-			if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
-			if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
+		if (!engine->accelerated) {
+			bool rises = speed > 0;
+			if (speed != 0 && !(rises ? closed_high : closed_low)) up = ((rises ? high : low) - position) / speed;
+			if (up < soonest) soonest = up, *next = (uint8_t)(1 + 2 * axis + rises);
+			continue;
 		}
+		double gravity = to_double(engine->acceleration[axis]),
+			   passed = moment_double(engine->now) - (body->page + time);
+		if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
+		if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
 		if (up < soonest) soonest = up, *next = (uint8_t)(2 + 2 * axis);
 		if (down < soonest) soonest = down, *next = (uint8_t)(1 + 2 * axis);
 	}
