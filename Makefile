@@ -6,6 +6,7 @@
 #   make clean, make format
 
 BUILD    := build
+CORES    := $(shell nproc)
 CC       := gcc
 OPTIMISE := -O3
 WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
@@ -29,13 +30,13 @@ all: $(BUILD)/touchstone
 
 report:
 	@.ci/setup report
-	@$(MAKE) --no-print-directory $(BUILD)/touchstone
+	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone
 	$(BUILD)/touchstone reproduce all --results $(BUILD)/results
 	$(BUILD)/touchstone report --results $(BUILD)/results --output $(BUILD)/report
 
 test:
 	@.ci/setup
-	@$(MAKE) --no-print-directory -j2 $(BUILD)/touchstone $(TESTS)
+	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone $(TESTS)
 	@$(MAKE) --no-print-directory check digests sanitize
 
 # Every test program, one after the other, from this folder.
@@ -44,16 +45,16 @@ check: $(BUILD)/touchstone $(TESTS)
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
 sanitize:
-	@$(MAKE) --no-print-directory -j2 BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
+	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
 		EXTRA='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer' prepared
 	@TOUCHSTONE_BRIEF=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
 		EXTRA='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer' check
 
 # One digest for both compilers and all optimisations.
 digests: $(BUILD)/touchstone
-	@$(MAKE) --no-print-directory -j2 BUILD=$(BUILD)/clang CC=clang $(BUILD)/clang/touchstone
-	@$(MAKE) --no-print-directory -j2 BUILD=$(BUILD)/plain OPTIMISE=-O0 $(BUILD)/plain/touchstone
-	@$(MAKE) --no-print-directory -j2 BUILD=$(BUILD)/clang-plain CC=clang OPTIMISE=-O0 $(BUILD)/clang-plain/touchstone
+	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/clang CC=clang $(BUILD)/clang/touchstone
+	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/plain OPTIMISE=-O0 $(BUILD)/plain/touchstone
+	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/clang-plain CC=clang OPTIMISE=-O0 $(BUILD)/clang-plain/touchstone
 	@verify/test/digests $(BUILD)/touchstone $(BUILD)/clang/touchstone $(BUILD)/plain/touchstone \
 		$(BUILD)/clang-plain/touchstone
 
