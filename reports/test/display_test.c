@@ -31,10 +31,11 @@ static double read_back(const char *text)
 			strcat(plain, *plain ? "e" : "1e");
 			raised = true;
 			text += 2;
-		} else if ((*text >= '0' && *text <= '9') || *text == '.')
-			strncat(plain, text++, 1);
-		else
+		} else if ((*text >= '0' && *text <= '9') || *text == '.') {
+			strcat(plain, (char[]){*text++, '\0'});
+		} else {
 			text++; /* spaces and the times sign */
+		}
 	}
 	return sign * strtod(plain, NULL);
 }
