@@ -39,9 +39,11 @@ test:
 	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone $(TESTS)
 	@$(MAKE) --no-print-directory check digests sanitize
 
-# Every test program, one after the other, from this folder.
+# Every test program, from this folder, as many at a time as there are cores; each tells its tale when it has ended.
 check: $(BUILD)/touchstone $(TESTS)
-	@for test in $(TESTS); do echo "== $$test"; $$test || exit 1; done
+	@printf '%s\n' $(TESTS) | OMP_WAIT_POLICY=passive xargs -P $(CORES) -n 1 sh -c \
+		'if "$$0" >"$$0.log" 2>&1 </dev/null; then told=0; else told=1; fi; \
+		echo "== $$0"; cat "$$0.log"; exit $$told'
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
 sanitize:

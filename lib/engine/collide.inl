@@ -124,7 +124,6 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 	num r[3], v[3], zero = from_double(0);
 	r[1] = r[2] = v[1] = v[2] = zero;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
-		engine->touching_image[axis] = entry_image(entry, axis);
 		r[axis] = offset_between(engine, i, j, entry_image(entry, axis), axis);
 		v[axis] = sub(first->velocity[axis], second->velocity[axis]);
 	}
@@ -156,7 +155,10 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 	to_second = mul(to_second, kick);
 	if (engine->observer) {
 		num mass = engine->mass[engine->place[i].species];
-		engine->touching[0] = i, engine->touching[1] = j;
+		bool in_order = engine->home[i].id < engine->home[j].id;
+		engine->touching[0] = in_order ? i : j, engine->touching[1] = in_order ? j : i;
+		for (int axis = 0; axis < engine->dimensions; axis++)
+			engine->touching_image[axis] = in_order ? entry_image(entry, axis) : -entry_image(entry, axis);
 		tell(engine, TOUCHSTONE_CONTACT, i, j, distance, contact_distance(engine, i, j), approach,
 			 mul(mul(mass, to_first), distance));
 	}

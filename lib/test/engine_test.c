@@ -72,23 +72,23 @@ static void assert_same_run(const struct scene_recipe *recipe, uint64_t events, 
 static void equal_precision_means_equal_events(void **state)
 {
 	(void)state;
+	/* each beside the one it must equal; the slow ones first */
 	static const char *const arithmetics[] = {"mpfr:113", "binary128", "mpfr:64", "extended", "mpfr:53", "binary64",
-											  "mpfr:11",  "short:11",  "mpfr:24", "short:24", "mpfr:24", "binary32"};
+											  "mpfr:11",  "short:11",  "mpfr:24", "short:24", "binary32"};
 	enum { RUNS = sizeof arithmetics / sizeof *arithmetics };
 	struct touchstone_status status[RUNS];
 	struct scene_recipe recipe = gas(3, 256, 0.5);
 	uint64_t events = brief ? 2000 : 100000;
 #pragma omp parallel for schedule(dynamic, 1)
 	for (int i = 0; i < RUNS; i++) status[i] = run(&recipe, arithmetics[i], "stable", events, INFINITY);
-	for (int i = 0; i < RUNS; i += 2) {
-		print_message("%s and %s: %llu events to t = %.4f, digests %016llx and %016llx\n", arithmetics[i],
-					  arithmetics[i + 1], (unsigned long long)status[i].events, status[i].time,
-					  (unsigned long long)status[i].digest, (unsigned long long)status[i + 1].digest);
+	for (int i = 1; i < RUNS; i += i < RUNS - 2 ? 2 : 1) {
+		print_message("%s and %s: %llu events to t = %.4f, digests %016llx and %016llx\n", arithmetics[i - 1],
+					  arithmetics[i], (unsigned long long)status[i].events, status[i].time,
+					  (unsigned long long)status[i - 1].digest, (unsigned long long)status[i].digest);
 		assert_int_equal(status[i].events, events);
-		assert_int_equal(status[i + 1].events, events);
-		assert_int_equal(status[i].digest, status[i + 1].digest);
+		assert_int_equal(status[i - 1].events, events);
+		assert_int_equal(status[i].digest, status[i - 1].digest);
 	}
-	assert_int_equal(status[8].digest, status[11].digest);
 }
 
 /* And it is one in the corners: fewer dimensions, walls, gravity, several species, inelasticity, either form. */
