@@ -45,6 +45,7 @@ struct agenda {
 	size_t size, heap_room;
 	struct distant *distant; /* beyond the horizon, in no order */
 	size_t distants, distant_room;
+	size_t beyond;           /* events so far off that their day has no exact number: they were not entered */
 	uint64_t opened, sorted; /* days opened and entries found there: to judge the length of a day by */
 	bool exhausted;          /* memory ran out and entries were lost: the agenda is of no more use */
 };
@@ -171,7 +172,9 @@ static void agenda_push(struct agenda *agenda, const void *context, double page,
 		entry.time = from_double(-1);
 		day = agenda->today;
 	}
-	if (day == agenda->today)
+	if (!(day < 0x1p52))
+		agenda->beyond++;
+	else if (day == agenda->today)
 		heap_add(agenda, context, entry);
 	else if (day < agenda->horizon)
 		pile_add(agenda, day, entry.note);

@@ -146,7 +146,12 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 		if (agenda->size == 0) {
 			bool turned = false;
 			if (limits->stop && *limits->stop) break;
-			if (!agenda_open(agenda, engine, &turned)) break;
+			if (!agenda_open(agenda, engine, &turned)) {
+				double day = day_length(engine);
+				if (!agenda->beyond || day <= agenda->day) break;
+				if (!lay_out_agenda(engine, day)) out_of_memory(engine);
+				continue;
+			}
 			if (turned) {
 				look_over(engine);
 				continue;
