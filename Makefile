@@ -78,6 +78,9 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
+$(BUILD)/object/verify/command/reproduce.o: CPPFLAGS += \
+	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
+
 # Templates and plot scripts are part of the program.
 $(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
 $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)

@@ -100,7 +100,7 @@ static int make(int f, const struct arguments *arguments)
 	snprintf(command, sizeof command, "touchstone reproduce %s %s --seed %" PRIu64, figures[f].name,
 			 arguments->full ? "--full" : "--quick", arguments->seed);
 	double seconds = progress_clock() - began;
-	result_made_by(result, command, seconds, NULL);
+	result_made_by(result, command, seconds, *TOUCHSTONE_REVISION ? TOUCHSTONE_REVISION : NULL);
 	bool written = result_write(result, arguments->results, error);
 	result_free(result);
 	if (!written) return refuse("%s", error);
