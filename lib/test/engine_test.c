@@ -308,6 +308,34 @@ static void column_collapses(void **state)
 	touchstone_destroy(engine);
 }
 
+/* Two discs side by side at the same velocity never meet: a run ends all the same, at its time or out of patience. */
+static void nothing_to_do_ends_a_run(void **state)
+{
+	(void)state;
+	struct touchstone_particle disc[2] = {{.velocity = {1}}, {.position = {0, 3}, .velocity = {1}}};
+	struct touchstone_species species = {1, 1};
+	struct touchstone_scene scene = {.dimensions = 2,
+									 .particle_count = 2,
+									 .particles = disc,
+									 .species_count = 1,
+									 .species = &species,
+									 .periodic = {true, true},
+									 .box = {10, 10},
+									 .restitution = {TOUCHSTONE_CONSTANT, 1}};
+	char error[160];
+	for (int limited = 1; limited >= brief; limited--) {
+		struct touchstone_engine *engine = touchstone_create(&scene, "binary64", "stable", error);
+		assert_non_null(engine);
+		struct touchstone_limits limits = {.events = 5, .time = limited ? 1000 : INFINITY};
+		assert_int_equal(touchstone_run(engine, &limits, NULL), TOUCHSTONE_DONE);
+		struct touchstone_status status;
+		touchstone_status(engine, &status);
+		assert_int_equal(status.events, 0);
+		if (limited) assert_float_equal(status.time, 1000, 0);
+		touchstone_destroy(engine);
+	}
+}
+
 static void bad_names_are_refused(void **state)
 {
 	(void)state;
@@ -352,6 +380,7 @@ int main(void)
 		cmocka_unit_test(ball_comes_to_rest),
 		cmocka_unit_test(naive_ball_halts_on_some_plates),
 		cmocka_unit_test(column_collapses),
+		cmocka_unit_test(nothing_to_do_ends_a_run),
 		cmocka_unit_test(bad_names_are_refused),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
