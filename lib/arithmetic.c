@@ -83,7 +83,7 @@ void touchstone_state(const struct touchstone_engine *engine, uint32_t particle,
 }
 
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
-						  double *contact)
+						  double contact[TOUCHSTONE_MOST_TERMS])
 {
 	return unit_of(engine)->separation(engine, terms, contact);
 }

@@ -171,10 +171,10 @@ void touchstone_state(const struct touchstone_engine *engine, uint32_t particle,
 					  double velocity[3]);
 
 /* During an observer's call: the exact relative position, first minus second particle, of the pair that is in
- * contact. terms[axis] receives doubles whose exact sum is the component, and returned is how many; *contact receives
- * the contact distance (rounded to double, where it is not one). */
+ * contact. terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact
+ * receives the contact distance in the same way, filled with zeros. */
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
-						  double *contact);
+						  double contact[TOUCHSTONE_MOST_TERMS]);
 
 /* How the engine went about the scene, for people: one line a fact. `line` is called for each. */
 void touchstone_explain(const struct touchstone_engine *engine, void (*line)(void *context, const char *text),

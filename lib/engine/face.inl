@@ -55,7 +55,7 @@ static void engine_state(const struct touchstone_engine *engine, uint32_t partic
 }
 
 static int engine_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
-							 double *contact)
+							 double contact[TOUCHSTONE_MOST_TERMS])
 {
 	uint32_t i = engine->touching[0], j = engine->touching[1];
 	int most = 0, count[3] = {0};
@@ -71,7 +71,8 @@ static int engine_separation(const struct touchstone_engine *engine, double term
 	}
 	for (int axis = 0; axis < 3; axis++)
 		for (int term = count[axis]; term < most; term++) terms[axis][term] = 0;
-	*contact = to_double(contact_distance(engine, i, j));
+	memset(contact, 0, TOUCHSTONE_MOST_TERMS * sizeof *contact);
+	expand(contact_distance(engine, i, j), contact, TOUCHSTONE_MOST_TERMS);
 	return most;
 }
 

@@ -17,7 +17,8 @@ struct unit {
 	void (*recount)(struct touchstone_engine *);
 	void (*elastic)(struct touchstone_engine *, bool);
 	void (*state)(const struct touchstone_engine *, uint32_t particle, double position[3], double velocity[3]);
-	int (*separation)(const struct touchstone_engine *, double terms[3][3 * TOUCHSTONE_MOST_TERMS], double *contact);
+	int (*separation)(const struct touchstone_engine *, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
+					  double contact[TOUCHSTONE_MOST_TERMS]);
 	void (*explain)(const struct touchstone_engine *, void (*line)(void *, const char *), void *);
 	bool (*drop)(const char *method, const struct touchstone_drop *, size_t, struct touchstone_landing *,
 				 touchstone_bounce *, void *, char error[160]);

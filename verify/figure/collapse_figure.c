@@ -156,7 +156,7 @@ static void add_claims(struct result *result, const struct collapse *collapse)
 					 .why = "Over all orders of evaluation in binary64. Where the gap is formed as "
 							"(r - plate) - s/2 the error is of the size of the square root of the roundoff, as the "
 							"last bounces are; with the contact position formed first, as the engine does, it is a "
-							"few roundoffs.",
+							"few roundoffs, unless the flight is summed as (r + v t) + g/2 t^2.",
 				 });
 }
 
@@ -235,7 +235,8 @@ static void add_scaling(struct result *result, struct collapse rung[RUNGS][ORDER
 			.title = "Largest error of the rest time, stable, by precision",
 			.caption = "From short:8 to mpfr:512. With the gap formed as (r - plate) - s/2, as Algorithm 2 writes "
 					   "it, half the bits are lost, because the last bounces are as small as the square root of the "
-					   "roundoff; with the contact position formed first, as the engine does, hardly any.",
+					   "roundoff; with the contact position formed first, as the engine does, hardly any, unless the "
+					   "flight is summed as (r + v t) + g/2 t^2, whose second rounding can lift the ball.",
 			.alternative = "Straight lines on a logarithmic scale: slopes of about -1/2 and -1 per bit.",
 			.x = {"significand bits", 0, {0, 0}},
 			.y = {"largest error of the rest time", 2, {0, 0}},

@@ -54,7 +54,8 @@ static double excess_twin(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count,
 }
 
 /* The same, exact but for the last rounding: sums and squares of doubles of any size are held whole. */
-static double excess_mpfr(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count, double contact)
+static double excess_mpfr(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count,
+						  const double contact[TOUCHSTONE_MOST_TERMS])
 {
 	mpfr_t sum, squares, part;
 	mpfr_inits2(2200, sum, part, (mpfr_ptr)0);
@@ -68,7 +69,7 @@ static double excess_mpfr(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count,
 		mpfr_add(squares, squares, part, MPFR_RNDN);
 	}
 	mpfr_sqrt(squares, squares, MPFR_RNDN);
-	mpfr_sub_d(squares, squares, contact, MPFR_RNDN);
+	for (int term = 0; term < TOUCHSTONE_MOST_TERMS; term++) mpfr_sub_d(squares, squares, contact[term], MPFR_RNDN);
 	double excess = mpfr_get_d(squares, MPFR_RNDN);
 	mpfr_clears(sum, part, squares, (mpfr_ptr)0);
 	return excess;
@@ -85,8 +86,9 @@ void impact_see(void *context, struct touchstone_engine *engine, const struct to
 {
 	struct impact *impact = context;
 	if (event->kind != TOUCHSTONE_CONTACT) return;
-	double terms[3][3 * TOUCHSTONE_MOST_TERMS], contact;
-	int count = touchstone_separation(engine, terms, &contact);
+	double terms[3][3 * TOUCHSTONE_MOST_TERMS], distance[TOUCHSTONE_MOST_TERMS];
+	int count = touchstone_separation(engine, terms, distance);
+	double contact = distance[0];
 	double ulp = ulp_of(contact, impact->bits), finer = finer_below(contact) ? 2 : 1;
 	impact->count++;
 	double steps = (double)event->steps;
@@ -96,7 +98,7 @@ void impact_see(void *context, struct touchstone_engine *engine, const struct to
 	double exact_steps = excess < 0 ? excess * finer : excess;
 	if (impact->bits > 53 || !settled(exact_steps)) {
 		impact->forced++;
-		excess = excess_mpfr(terms, count, contact) / ulp;
+		excess = excess_mpfr(terms, count, distance) / ulp;
 		exact_steps = excess < 0 ? excess * finer : excess;
 	}
 	enter(&impact->exact, rint(exact_steps), excess);

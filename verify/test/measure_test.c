@@ -157,8 +157,9 @@ static void assert_true_positions(const struct witness *witness, const struct to
 static void see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
 {
 	struct witness *witness = context;
-	double terms[3][3 * TOUCHSTONE_MOST_TERMS], contact;
-	int count = touchstone_separation(engine, terms, &contact), bits = witness->bits;
+	double terms[3][3 * TOUCHSTONE_MOST_TERMS], distance[TOUCHSTONE_MOST_TERMS];
+	int count = touchstone_separation(engine, terms, distance), bits = witness->bits;
+	double contact = distance[0];
 	assert_true_positions(witness, engine, event, terms, count);
 	struct truth truth = truth_of(terms, count, contact, bits);
 
