@@ -220,7 +220,7 @@ static void cradle_passes_one_ball_on(void **state)
 		for (uint32_t i = 0; i < 6; i++) {
 			double position[3], velocity[3];
 			touchstone_state(engine, i, position, velocity);
-			assert_float_equal(velocity[0], i == 5, 0);
+			assert_true(velocity[0] == (i == 5));
 		}
 		touchstone_destroy(engine);
 	}
@@ -331,7 +331,7 @@ static void nothing_to_do_ends_a_run(void **state)
 		struct touchstone_status status;
 		touchstone_status(engine, &status);
 		assert_int_equal(status.events, 0);
-		if (limited) assert_float_equal(status.time, 1000, 0);
+		if (limited) assert_true(status.time == 1000);
 		touchstone_destroy(engine);
 	}
 }
