@@ -212,6 +212,35 @@ typedef void touchstone_bounce(void *context, double time, double gap, double sp
 bool touchstone_drop(const char *arithmetic, const char *method, const struct touchstone_drop *drop, size_t count,
 					 struct touchstone_landing *landing, touchstone_bounce *bounce, void *context, char error[160]);
 
+/* ------------------------------------------------------------------ finders */
+
+/* What two bodies may be to each other. The numbers of a question stand in the order in which queries are written. */
+enum touchstone_shape {
+	TOUCHSTONE_BALL_BALL,  /* two balls meet: r[3], v[3], contact distance */
+	TOUCHSTONE_BALL_LEAVE, /* two balls part to a distance: r[3], v[3], contact distance */
+	TOUCHSTONE_BALL_PLANE, /* a ball meets a plane: distance, speed, acceleration along its normal, contact distance */
+	TOUCHSTONE_HALF_SPACE, /* a point passes a plane: distance, speed */
+};
+enum { TOUCHSTONE_SHAPES = 4, TOUCHSTONE_MOST_NUMBERS = 7 };
+
+/* Asks the finder of a method `count` questions of one shape, in the arithmetic named, into which the numbers are
+ * rounded first. times[k] is the answer rounded to double: the wait until the event, or INFINITY when none is found.
+ * `chained` makes each question wait for the answer before it, so that a clock around the call sees the latency;
+ * otherwise questions may be worked on together. False, with one line in `error`, for an unknown arithmetic or method
+ * or when the method has no finder for the shape. */
+bool touchstone_find(const char *arithmetic, const char *method, enum touchstone_shape shape,
+					 const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count, bool chained, double *times,
+					 char error[160]);
+
+/* What a finder of balls or plane forms on its way to an answer, rounded to double: f(t) = a t^2 + 2 b t + c for balls,
+ * a t^2 / 2 + b t + c for a plane; NaN for what it does not form. */
+struct touchstone_steps {
+	double a, b, c, discriminant, time;
+};
+bool touchstone_find_steps(const char *arithmetic, const char *method, enum touchstone_shape shape,
+						   const double numbers[TOUCHSTONE_MOST_NUMBERS], struct touchstone_steps *steps,
+						   char error[160]);
+
 /* ------------------------------------------------------------------ finders written by others */
 
 /* A plug-in is a shared object that exports one or more of these. Each returns the time until the event by the
