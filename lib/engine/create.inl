@@ -1,8 +1,8 @@
 /* From a scene to an engine, and what an engine says of itself. */
 
 static const struct method methods[] = {
-	{"stable", stable_ball_ball, stable_ball_plane},
-	{"naive", naive_ball_ball, naive_ball_plane},
+	{"stable", SIEVE_ORDER, stable_ball_ball, stable_ball_plane},
+	{"naive", SIEVE_MISSES, naive_ball_ball, naive_ball_plane},
 };
 
 static bool refuse(char error[160], const char *format, ...)
@@ -27,8 +27,9 @@ static void engine_destroy(struct touchstone_engine *engine)
 	if (!engine) return;
 	cells_destroy(&engine->cells);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body,   engine->place, engine->appointment, engine->home,     engine->index_of,
-					 engine->radius, engine->mass,  engine->wall,        engine->candidate};
+	void *owned[] = {engine->body,      engine->place,          engine->appointment,   engine->home,
+					 engine->index_of,  engine->radius,         engine->mass,          engine->wall,
+					 engine->candidate, engine->shadows.shadow, engine->shadows.bounds};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -177,6 +178,16 @@ static bool set_particles(struct touchstone_engine *engine, const struct touchst
 	return enough;
 }
 
+static bool set_sieve(struct touchstone_engine *engine)
+{
+	struct shadows *shadows = &engine->shadows;
+	bool straight = !engine->accelerated, alone = engine->count < 2;
+	if (engine->search != TOUCHSTONE_CELLS || engine->method->sieve == SIEVE_NOTHING || !straight || alone) return true;
+	shadows->pass = sieve_choose();
+	shadows->shadow = aligned_alloc(64, (engine->count * sizeof *shadows->shadow + 63) / 64 * 64);
+	return shadows->shadow;
+}
+
 static bool scene_makes_sense(const struct touchstone_scene *scene, char error[160])
 {
 	if (scene->dimensions < 1 || scene->dimensions > 3)
@@ -216,9 +227,8 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	engine->digest = first_digest;
 	engine->now.time = from_double(0);
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
-	bool made = set_species_and_walls(engine, scene) && set_particles(engine, scene);
+	bool made = set_species_and_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
 	if (made) {
-		engine->pairs = choose_pairs(engine);
 		engine->slack = slack_needed(engine, 0, typical_speed(engine));
 		made = lay_out(engine);
 	}

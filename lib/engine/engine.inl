@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "engine/cells.h"
+#include "engine/sieve.h"
 #include "touchstone.h"
 #include "unit/unit.h"
 
@@ -24,14 +25,9 @@ extern const struct unit THIS_UNIT;
 #include "engine/state.inl"
 
 #include "engine/motion.inl"
+#include "engine/shadow.inl"
 
 #include "engine/search.inl"
-
-#ifdef NUM_HAS_LANES
-#include "engine/pairs_vector.inl"
-#else
-#include "engine/pairs_single.inl"
-#endif
 
 #include "engine/collide.inl"
 #include "engine/layout.inl"

@@ -10,17 +10,6 @@ static double slack_needed(const struct touchstone_engine *engine, double clock,
 	return 0x1p-14 * engine->largest + 16 * roundoff * (extent * (1 + extent / engine->largest) + 8 * drift * speed);
 }
 
-static double typical_speed(const struct touchstone_engine *engine)
-{
-	double sum = 0;
-	for (uint32_t i = 0; i < engine->count; i++)
-		for (int axis = 0; axis < engine->dimensions; axis++) {
-			double speed = to_double(engine->body[i].velocity[axis]);
-			sum += speed * speed;
-		}
-	return sqrt(sum / engine->count);
-}
-
 /* Coordinate of a particle now, in the image of the box it is in. */
 static double coordinate_now(const struct touchstone_engine *engine, uint32_t i, int axis)
 {
@@ -52,10 +41,13 @@ static bool make_cells(struct touchstone_engine *engine, const int count[3], uin
 	for (;; capacity *= 2) {
 		cells_destroy(&engine->cells);
 		free(engine->candidate);
-		engine->candidate = NULL;
+		free(engine->shadows.bounds);
+		engine->candidate = NULL, engine->shadows.bounds = NULL;
 		if (!cells_create(&engine->cells, engine->dimensions, engine->periodic, count, capacity)) return false;
-		engine->candidate = malloc((cells_most(&engine->cells) + 16) * sizeof *engine->candidate);
-		if (!engine->candidate) return false;
+		size_t most = cells_most(&engine->cells) + 32;
+		engine->candidate = malloc(most * sizeof *engine->candidate);
+		engine->shadows.bounds = malloc(2 * most * sizeof *engine->shadows.bounds);
+		if (!engine->candidate || !engine->shadows.bounds) return false;
 		if (fill_cells(engine)) return true;
 	}
 }
@@ -142,6 +134,7 @@ static bool lay_out_agenda(struct touchstone_engine *engine, double day)
 static bool lay_out(struct touchstone_engine *engine)
 {
 	if (engine->count > 1 && !lay_out_cells(engine)) return false;
+	cast_shadows(engine);
 	for (uint32_t i = 0; i < engine->count; i++) predict(engine, i);
 	return lay_out_agenda(engine, day_length(engine));
 }

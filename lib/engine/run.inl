@@ -26,6 +26,7 @@ static void cross(struct touchstone_engine *engine, uint32_t i)
 			return;
 		}
 	}
+	cast_shadow(engine, i);
 	if (wraps) { /* images are counted from here on: whoever knew the old one asks again */
 		engine->appointment[i].changes++;
 		predict(engine, i);
@@ -69,10 +70,14 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 {
 	uint32_t partner = engine->appointment[i].partner;
 	engine->now = (struct moment){engine->appointment[i].page, engine->appointment[i].time};
+	keep_time(engine);
 	if (engine->home[i].meets == TOUCHSTONE_WALL) {
 		rebound(engine, i, partner);
+		cast_shadow(engine, i);
 	} else {
 		collide(engine, i, partner);
+		cast_shadow(engine, i);
+		cast_shadow(engine, entry_particle(partner));
 		predict(engine, entry_particle(partner));
 		schedule(engine, entry_particle(partner));
 	}
@@ -106,8 +111,7 @@ static void anticipate(const struct touchstone_engine *engine)
 	for (size_t p = 0; p < particles; p++) {
 		size_t neighbours = cells_around(&engine->cells, engine->home[particle[p]].cell, engine->candidate);
 		for (size_t n = 0; n < neighbours; n++) {
-			__builtin_prefetch(&engine->body[entry_particle(engine->candidate[n])]);
-			__builtin_prefetch(&engine->place[entry_particle(engine->candidate[n])]);
+			__builtin_prefetch(&engine->shadows.shadow[entry_particle(engine->candidate[n])]);
 		}
 	}
 }
@@ -156,6 +160,7 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 				look_over(engine);
 				continue;
 			}
+			if (engine->shadows.now > shadows_last) cast_shadows(engine);
 			if (engine->count > beyond_cache) anticipate(engine);
 		}
 		struct entry entry = agenda->heap[0];
@@ -172,6 +177,7 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 			if (engine->home[i].next != NEXT_IS_PHYSICAL) {
 				cross(engine, i);
 			} else {
+				cast_shadow(engine, i);
 				predict(engine, i);
 				schedule(engine, i);
 			}

@@ -60,9 +60,11 @@ static void consider(struct touchstone_engine *engine, uint32_t i, const struct 
 		consider_moment(engine, i, moment_on(engine, later->page, add(later->time, wait)), meets, partner, plan);
 }
 
+/* Weighs all meetings of particle i with the first `candidates` entries that the engine has listed. */
 static void consider_pairs(struct touchstone_engine *engine, uint32_t i, size_t candidates, struct plan *plan)
 {
 	const uint32_t *candidate = engine->candidate;
+	candidates = sift(engine, i, candidates, plan);
 	for (size_t k = 0; k < candidates; k++) {
 		num r[3], v[3];
 		const struct body *later = relative_state(engine, i, candidate[k], r, v);
@@ -99,7 +101,7 @@ static void predict(struct touchstone_engine *engine, uint32_t i)
 	struct plan plan = {.meets = MEETS_NOTHING};
 	if (engine->wall_count) consider_walls(engine, i, &plan);
 	if (engine->count > 1)
-		engine->pairs(engine, i, cells_around(&engine->cells, engine->home[i].cell, engine->candidate), &plan);
+		consider_pairs(engine, i, cells_around(&engine->cells, engine->home[i].cell, engine->candidate), &plan);
 	plan_keep(engine, i, &plan);
 }
 
@@ -110,7 +112,7 @@ static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axi
 	const struct appointment *appointment = &engine->appointment[i];
 	struct plan plan = {{appointment->page, appointment->time}, appointment->partner, engine->home[i].meets, false};
 	size_t candidates = cells_beyond(&engine->cells, engine->home[i].cell, axis, side, engine->candidate);
-	engine->pairs(engine, i, candidates, &plan);
+	consider_pairs(engine, i, candidates, &plan);
 	plan_keep(engine, i, &plan);
 }
 

@@ -53,9 +53,6 @@ struct plan {
 
 struct touchstone_engine;
 
-/* Weighs all meetings of particle i with the first `candidates` entries that the engine has listed. */
-typedef void pair_search(struct touchstone_engine *engine, uint32_t i, size_t candidates, struct plan *plan);
-
 struct wall {
 	num position[3]; /* from the middle of its place, like a body's */
 	int32_t index[3];
@@ -64,10 +61,30 @@ struct wall {
 	struct touchstone_restitution restitution;
 };
 
+/* What the sieve (engine/sieve.h) may leave out under a method, without changing what the method finds. */
+enum sieving {
+	SIEVE_NOTHING,
+	SIEVE_MISSES, /* pairs that surely do not meet; the times it finds may be far off */
+	SIEVE_ORDER,  /* and those that surely meet later than another pair */
+};
+
 struct method {
 	const char *name;
+	enum sieving sieve;
 	num (*ball_ball)(struct ball_ball);
 	num (*ball_plane)(struct ball_plane);
+};
+
+/* The shadows of all particles, and the scale they are cast in: engine/shadow.inl. */
+struct shadows {
+	struct shadow *shadow; /* NULL: the sieve is not used */
+	sieve_pass *pass;
+	struct sieve sieve;
+	float *bounds;
+	double base_page, base_time;            /* when the shadows' time is 0 */
+	double per_length, per_time, per_speed; /* units, all powers of two */
+	double now;                             /* time of the search, since the base */
+	double age;                             /* of the oldest last event, at the base */
 };
 
 struct touchstone_engine {
@@ -109,7 +126,7 @@ struct touchstone_engine {
 	double cell_side[3];
 	struct cells cells;
 	uint32_t *candidate; /* entries that a search has listed */
-	pair_search *pairs;
+	struct shadows shadows;
 	struct agenda agenda;
 
 	/* what has happened */

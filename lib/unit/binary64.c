@@ -1,5 +1,4 @@
 #include "num/binary64.h"
 
-#define NUM_HAS_LANES
 #define THIS_UNIT unit_binary64
 #include "engine/engine.inl"
