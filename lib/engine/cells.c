@@ -91,41 +91,37 @@ void cells_remove(struct cells *cells, const uint16_t cell[3], uint32_t particle
 }
 
 /* Without a branch per entry. */
-static size_t list_rows_any(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t *list)
+static size_t list_rows_any(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self,
+							uint32_t *list)
 {
 	size_t found = 0;
 	for (int row = 0; row < rows; row++)
 		for (size_t i = 0; i < length; i++) {
 			uint32_t entry = centre[offset[row] + (ptrdiff_t)i];
 			list[found] = entry;
-			found += entry != entry_none;
+			found += entry != entry_none && entry != self;
 		}
-	for (size_t i = found; i == found || i % 16; i++) list[i] = 0;
+	for (size_t i = 0; i < 16; i++) list[found + i] = 0;
 	return found;
 }
 
 #ifdef __x86_64__
-/* Sixteen entries at a time, collected in a register: what has been written in pieces is slow to be read back whole. */
-__attribute__((target("avx512f,popcnt"))) static size_t list_rows_512(const uint32_t *centre, const ptrdiff_t *offset,
-																	  int rows, size_t length, uint32_t *list)
+/* Sixteen entries at a time: a row of three cells is usually one such step. */
+__attribute__((target("avx512f,popcnt,bmi,bmi2"))) static size_t
+list_rows_512(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self, uint32_t *list)
 {
-	__m512i collected = _mm512_setzero_si512(), none = _mm512_set1_epi32((int)entry_none);
+	const __m512i none = _mm512_set1_epi32((int)entry_none), own = _mm512_set1_epi32((int)self);
 	size_t found = 0;
 	for (int row = 0; row < rows; row++)
 		for (size_t i = 0; i < length; i += 16) {
 			__m512i some = _mm512_loadu_si512(centre + offset[row] + i);
-			unsigned inside = length - i < 16 ? (1u << (length - i)) - 1 : 0xffff;
-			__mmask16 used = _mm512_mask_cmpneq_epu32_mask((__mmask16)inside, some, none);
-			unsigned more = (unsigned)__builtin_popcount(used), held = found % 16;
-			some = _mm512_maskz_compress_epi32(used, some);
-			collected = _mm512_mask_expand_epi32(collected, (__mmask16)(((1u << more) - 1) << held), some);
-			found += more;
-			if (held + more >= 16) {
-				_mm512_storeu_si512(list + (found - more - held), collected);
-				collected = _mm512_maskz_compress_epi32((__mmask16)(0xffffu << (16 - held)), some);
-			}
+			__mmask16 inside = length - i < 16 ? (__mmask16)((1u << (length - i)) - 1) : 0xffff;
+			__mmask16 used = _mm512_mask_cmpneq_epu32_mask(inside, some, none);
+			used = _mm512_mask_cmpneq_epu32_mask(used, some, own);
+			_mm512_storeu_si512(list + found, _mm512_maskz_compress_epi32(used, some));
+			found += (unsigned)__builtin_popcount(used);
 		}
-	_mm512_storeu_si512(list + (found - found % 16), collected);
+	_mm512_storeu_si512(list + found, _mm512_setzero_si512());
 	return found;
 }
 #endif
@@ -133,22 +129,23 @@ __attribute__((target("avx512f,popcnt"))) static size_t list_rows_512(const uint
 static cells_lister *choose_lister(void)
 {
 #ifdef __x86_64__
-	if (__builtin_cpu_supports("avx512f")) return list_rows_512;
+	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("bmi2")) return list_rows_512;
 #endif
 	return list_rows_any;
 }
 
-size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t *list)
+size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t self,
+					uint32_t *list)
 {
 	const uint32_t *face = cells->entry + cells_index(cells, cell) + side * (ptrdiff_t)cells->stride[axis];
 	size_t capacity = cells->capacity;
 	ptrdiff_t offset[9];
 	if (axis == 0) { /* single cells of every row */
 		for (int row = 0; row < cells->rows; row++) offset[row] = cells->row[row] + (ptrdiff_t)capacity;
-		return cells->list_rows(face, offset, cells->rows, capacity, list);
+		return cells->list_rows(face, offset, cells->rows, capacity, self, list);
 	}
 	int rows = 0;
 	for (int row = 0; row < cells->rows; row++)
 		if (axis == 1 ? row % 3 == 1 : row / 3 == 1) offset[rows++] = cells->row[row];
-	return cells->list_rows(face, offset, rows, 3 * capacity, list);
+	return cells->list_rows(face, offset, rows, 3 * capacity, self, list);
 }

@@ -27,8 +27,10 @@ static inline int entry_image(uint32_t entry, int axis)
 	return (int)(code & 1) - (int)(code >> 1);
 }
 
-/* Lists the entries in use in so many rows of `length` entries each, which begin at `centre` + offset. */
-typedef size_t cells_lister(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t *list);
+/* Lists the entries in use, but for `self`, in so many rows of `length` entries each, which begin at `centre` + offset.
+ */
+typedef size_t cells_lister(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self,
+							uint32_t *list);
 
 struct cells {
 	int dimensions;
@@ -56,19 +58,30 @@ static inline size_t cells_index(const struct cells *cells, const uint16_t cell[
 	return cell[0] * cells->stride[0] + cell[1] * cells->stride[1] + cell[2] * cells->stride[2];
 }
 
-/* Lists the entries of a cell and its neighbours, or only of the neighbours beyond one face (axis, side -1 or +1).
- * `list` has room for cells_most() entries and 32 more, and is filled up with particle 0 to a multiple of 16. Returns
+/* Lists the entries of a cell and its neighbours, or only of the neighbours beyond one face (axis, side -1 or +1), but
+ * for the entry `self`.
+ * `list` has room for cells_most() entries and 32 more, and 16 times particle 0 after the last. Returns
  * how many there are. */
-static inline size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t *list)
+static inline size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t self, uint32_t *list)
 {
 	return cells->list_rows(cells->entry + cells_index(cells, cell), cells->row, cells->rows,
-							3 * (size_t)cells->capacity, list);
+							3 * (size_t)cells->capacity, self, list);
 }
-size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t *list);
+size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t self,
+					uint32_t *list);
 
 static inline size_t cells_most(const struct cells *cells)
 {
 	return (size_t)cells->rows * 3 * cells->capacity;
+}
+
+/* Whether a search from this cell may see images. */
+static inline bool cells_at_border(const struct cells *cells, const uint16_t cell[3])
+{
+	bool at_border = false;
+	for (int axis = 0; axis < 3; axis++)
+		at_border |= cells->periodic[axis] & ((cell[axis] <= 1) | (cell[axis] >= cells->count[axis]));
+	return at_border;
 }
 
 #endif

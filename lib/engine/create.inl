@@ -27,9 +27,9 @@ static void engine_destroy(struct touchstone_engine *engine)
 	if (!engine) return;
 	cells_destroy(&engine->cells);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body,      engine->place,          engine->appointment,   engine->home,
-					 engine->index_of,  engine->radius,         engine->mass,          engine->wall,
-					 engine->candidate, engine->shadows.shadow, engine->shadows.bounds};
+	void *owned[] = {engine->body,         engine->place,          engine->appointment,    engine->home,
+					 engine->index_of,     engine->radius,         engine->mass,           engine->wall,
+					 engine->candidate[0], engine->shadows.shadow, engine->shadows.scratch};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -183,7 +183,7 @@ static bool set_sieve(struct touchstone_engine *engine)
 	struct shadows *shadows = &engine->shadows;
 	bool straight = !engine->accelerated, alone = engine->count < 2;
 	if (engine->search != TOUCHSTONE_CELLS || engine->method->sieve == SIEVE_NOTHING || !straight || alone) return true;
-	shadows->pass = sieve_choose();
+	shadows->machine = sieve_machine(0);
 	shadows->shadow = aligned_alloc(64, (engine->count * sizeof *shadows->shadow + 63) / 64 * 64);
 	return shadows->shadow;
 }

@@ -68,21 +68,17 @@ static bool stale(const struct touchstone_engine *engine, uint32_t i)
 
 static void execute(struct touchstone_engine *engine, uint32_t i)
 {
-	uint32_t partner = engine->appointment[i].partner;
+	uint32_t partner = engine->appointment[i].partner, met[2] = {i, entry_particle(partner)};
+	int particles = engine->home[i].meets == TOUCHSTONE_CONTACT ? 2 : 1;
 	engine->now = (struct moment){engine->appointment[i].page, engine->appointment[i].time};
 	keep_time(engine);
-	if (engine->home[i].meets == TOUCHSTONE_WALL) {
-		rebound(engine, i, partner);
-		cast_shadow(engine, i);
-	} else {
+	if (particles == 2)
 		collide(engine, i, partner);
-		cast_shadow(engine, i);
-		cast_shadow(engine, entry_particle(partner));
-		predict(engine, entry_particle(partner));
-		schedule(engine, entry_particle(partner));
-	}
-	predict(engine, i);
-	schedule(engine, i);
+	else
+		rebound(engine, i, partner);
+	for (int p = 0; p < particles; p++) cast_shadow(engine, met[p]);
+	predict_all(engine, met, particles);
+	for (int p = 0; p < particles; p++) schedule(engine, met[p]);
 }
 
 static const uint32_t beyond_cache = 20000; /* particles whose bodies and cells fill a second-level cache */
@@ -109,10 +105,9 @@ static void anticipate(const struct touchstone_engine *engine)
 		for (int row = 0; row < engine->cells.rows; row++) __builtin_prefetch(cell + engine->cells.row[row]);
 	}
 	for (size_t p = 0; p < particles; p++) {
-		size_t neighbours = cells_around(&engine->cells, engine->home[particle[p]].cell, engine->candidate);
-		for (size_t n = 0; n < neighbours; n++) {
-			__builtin_prefetch(&engine->shadows.shadow[entry_particle(engine->candidate[n])]);
-		}
+		uint32_t *list = engine->candidate[0];
+		size_t neighbours = cells_around(&engine->cells, engine->home[particle[p]].cell, particle[p], list);
+		for (size_t n = 0; n < neighbours; n++) __builtin_prefetch(&engine->shadows.shadow[entry_particle(list[n])]);
 	}
 }
 

@@ -60,11 +60,10 @@ static void consider(struct touchstone_engine *engine, uint32_t i, const struct 
 		consider_moment(engine, i, moment_on(engine, later->page, add(later->time, wait)), meets, partner, plan);
 }
 
-/* Weighs all meetings of particle i with the first `candidates` entries that the engine has listed. */
-static void consider_pairs(struct touchstone_engine *engine, uint32_t i, size_t candidates, struct plan *plan)
+/* Weighs the meetings of particle i with so many entries. */
+static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const uint32_t *candidate, size_t candidates,
+						   struct plan *plan)
 {
-	const uint32_t *candidate = engine->candidate;
-	candidates = sift(engine, i, candidates, plan);
 	for (size_t k = 0; k < candidates; k++) {
 		num r[3], v[3];
 		const struct body *later = relative_state(engine, i, candidate[k], r, v);
@@ -95,14 +94,27 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 		appointment->partner_changes = engine->appointment[entry_particle(plan->partner)].changes;
 }
 
-/* Looks at everything a particle may meet. */
+/* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
+ * together: each step waits for the one before it, and not for the other particle's. */
+static void predict_all(struct touchstone_engine *engine, const uint32_t *particle, int particles)
+{
+	struct plan plan[2];
+	size_t candidates[2] = {0};
+	for (int p = 0; p < particles; p++) plan[p] = (struct plan){.meets = MEETS_NOTHING};
+	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
+	if (engine->count > 1) {
+		uint32_t *const *list = engine->candidate;
+		for (int p = 0; p < particles; p++)
+			candidates[p] = cells_around(&engine->cells, engine->home[particle[p]].cell, particle[p], list[p]);
+		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
+		for (int p = 0; p < particles; p++) consider_pairs(engine, particle[p], list[p], candidates[p], &plan[p]);
+	}
+	for (int p = 0; p < particles; p++) plan_keep(engine, particle[p], &plan[p]);
+}
+
 static void predict(struct touchstone_engine *engine, uint32_t i)
 {
-	struct plan plan = {.meets = MEETS_NOTHING};
-	if (engine->wall_count) consider_walls(engine, i, &plan);
-	if (engine->count > 1)
-		consider_pairs(engine, i, cells_around(&engine->cells, engine->home[i].cell, engine->candidate), &plan);
-	plan_keep(engine, i, &plan);
+	predict_all(engine, &i, 1);
 }
 
 /* A particle has come into a cell through one face: looks only at what lies beyond the opposite one. What it meant to
@@ -111,8 +123,10 @@ static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axi
 {
 	const struct appointment *appointment = &engine->appointment[i];
 	struct plan plan = {{appointment->page, appointment->time}, appointment->partner, engine->home[i].meets, false};
-	size_t candidates = cells_beyond(&engine->cells, engine->home[i].cell, axis, side, engine->candidate);
-	consider_pairs(engine, i, candidates, &plan);
+	uint32_t *list = engine->candidate[0];
+	size_t candidates = cells_beyond(&engine->cells, engine->home[i].cell, axis, side, i, list);
+	candidates = sift(engine, i, list, candidates, &plan);
+	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);
 }
 

@@ -14,22 +14,28 @@ static void cast_shadow(struct touchstone_engine *engine, uint32_t i)
 	struct shadows *shadows = &engine->shadows;
 	if (!shadows->shadow) return;
 	const struct body *body = &engine->body[i];
-	struct shadow *shadow = &shadows->shadow[i];
-	double flight = shadows->now - since_base(engine, body->page, to_double(body->time));
+	const struct place *place = &engine->place[i];
+	double flight = shadows->now - since_base(engine, body->page, to_double(body->time)), position[3], velocity[3];
 	for (int axis = 0; axis < 3; axis++) {
-		double velocity = to_double(body->velocity[axis]) * shadows->per_speed;
-		double position = to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
-		shadow->position[axis] = (float)(position * shadows->per_length + velocity * flight);
-		shadow->velocity[axis] = (float)velocity;
+		velocity[axis] = to_double(body->velocity[axis]) * shadows->per_speed;
+		position[axis] = to_double(body->position[axis]) + place->index[axis] * engine->place_width[axis];
+		position[axis] = position[axis] * shadows->per_length + velocity[axis] * flight;
 	}
-	shadow->time = (float)shadows->now;
-	shadow->radius = (float)(to_double(engine->radius[engine->place[i].species]) * shadows->per_length);
+	double radius = to_double(engine->radius[place->species]) * shadows->per_length;
+	shadows->machine->cast(&shadows->shadow[i], position[0], position[1], position[2], shadows->now, velocity[0],
+						   velocity[1], velocity[2], radius);
 }
 
 /* The time of the search is that of the last event: no event of a pair is earlier, and none that is left is. */
 static void keep_time(struct touchstone_engine *engine)
 {
-	engine->shadows.now = since_base(engine, engine->now.page, to_double(engine->now.time));
+	struct shadows *shadows = &engine->shadows;
+	struct sieve *sieve = &shadows->sieve;
+	double clock = engine->page_length < INFINITY ? engine->page_length : moment_double(engine->now);
+	shadows->now = since_base(engine, engine->now.page, to_double(engine->now.time));
+	sieve->now = sieve->span = (float)shadows->now;
+	sieve->age = (float)(shadows->age + shadows->now);
+	sieve->drift = (float)((sieve->roundoff + 0x1p-53) * 16 * (sieve->age + clock * shadows->per_time));
 }
 
 static const double shadows_last = 64; /* units of time: the error of a time in binary32 grows as long */
@@ -60,11 +66,10 @@ static void cast_shadows(struct touchstone_engine *engine)
 	double speed = typical_speed(engine);
 	shadows->base_page = engine->now.page;
 	shadows->base_time = to_double(engine->now.time);
-	shadows->now = 0;
 	shadows->per_length = 1 / power_of_two_below(engine->largest);
 	shadows->per_time = speed > 0 && speed < INFINITY ? power_of_two_below(speed) * shadows->per_length : 1;
 	shadows->per_speed = shadows->per_length / shadows->per_time;
-	shadows->age = 0;
+	shadows->now = shadows->age = 0;
 	for (uint32_t i = 0; i < engine->count; i++) {
 		const struct body *body = &engine->body[i];
 		shadows->age = fmax(shadows->age, -since_base(engine, body->page, to_double(body->time)));
@@ -78,23 +83,21 @@ static void cast_shadows(struct touchstone_engine *engine)
 	}
 	sieve->roundoff = (float)ldexp(1, -engine->bits);
 	sieve->by_order = engine->method->sieve == SIEVE_ORDER;
+	keep_time(engine);
 }
 
-/* Of the first `candidates` entries that the engine has listed, keeps those that particle i may meet first. */
-static size_t sift(struct touchstone_engine *engine, uint32_t i, size_t candidates, const struct plan *plan)
+/* Of the first `candidates` entries listed, keeps those that particle i may meet before its plan. */
+static size_t sift(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates,
+				   const struct plan *plan)
 {
 	struct shadows *shadows = &engine->shadows;
 	if (!shadows->shadow) return candidates;
 	struct sieve *sieve = &shadows->sieve;
-	double clock = engine->page_length < INFINITY ? engine->page_length : moment_double(engine->now);
-	double roundoff = sieve->roundoff + 0x1p-53;
-	sieve->now = sieve->span = (float)shadows->now;
-	sieve->age = (float)(shadows->age + shadows->now);
-	sieve->drift = (float)(16 * roundoff * (sieve->age + clock * shadows->per_time));
+	sieve->images = cells_at_border(&engine->cells, engine->home[i].cell);
 	sieve->latest = INFINITY;
 	if (sieve->by_order && plan->meets != MEETS_NOTHING) {
 		double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - shadows->now;
 		sieve->latest = (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->drift);
 	}
-	return shadows->pass(sieve, shadows->shadow, i, engine->candidate, candidates, shadows->bounds);
+	return shadows->machine->pass(sieve, shadows->shadow, i, candidate, candidates, shadows->scratch);
 }

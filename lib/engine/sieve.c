@@ -15,13 +15,15 @@ typedef int32_t flags __attribute__((vector_size(LANES * sizeof(int32_t))));
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* The steps for which machines differ: sixteen shadows in, their fields out; square roots; comparison; and keeping the
- * lanes that are wanted, close together, but for the particle itself. */
-typedef void fetch_step(const struct shadow *shadow, const uint32_t entry[LANES], lanes field[FIELDS]);
-typedef lanes root_step(lanes x);
-typedef flags less_step(lanes a, lanes b);
-typedef size_t pack_step(flags keep, size_t valid, uint32_t self, flags which, lanes low, lanes high, uint32_t *entry,
-						 float *lows, float *highs);
+/* The steps for which machines differ. */
+struct steps {
+	void (*fetch)(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS]); /* sixteen, by field */
+	lanes (*root)(lanes x);
+	flags (*less)(lanes a, lanes b);
+	uint32_t (*bits)(flags x); /* one for each lane that is set */
+	/* what is wanted, close together: numbers of lanes from `first` on, and their bounds; returns how many */
+	size_t (*pack)(uint32_t wanted, uint32_t first, lanes low, lanes high, uint32_t *where, float *lows, float *highs);
+};
 
 INLINE lanes size_of(lanes x)
 {
@@ -41,60 +43,66 @@ INLINE lanes shift_of(flags entry, int axis, float box)
 }
 
 INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, uint32_t *entry, size_t count,
-				   float *bounds, fetch_step *fetch, root_step *root, less_step *less, pack_step *pack)
+				   float *scratch, const struct steps step)
 {
 	static const float u = 0x1p-24f, tiny = 0x1p-120f;
 	const struct shadow self = shadow[i];
-	const float n = sieve->roundoff, size = fabsf(self.position[0]) + fabsf(self.position[1]) + fabsf(self.position[2]),
+	const float n = sieve->roundoff, age = sieve->age,
+				size = fabsf(self.position[0]) + fabsf(self.position[1]) + fabsf(self.position[2]),
 				speed = fabsf(self.velocity[0]) + fabsf(self.velocity[1]) + fabsf(self.velocity[2]),
-				base_error = 4 * u * (sieve->boxes + size), speed_error = 8 * u * sieve->span + sieve->drift;
+				h_fixed = 8 * u * (sieve->boxes + size), h_time = 12 * u * sieve->span + sieve->drift;
 	const lanes zero = {0}, never = zero + INFINITY;
-	float *lows = bounds, *highs = bounds + count + LANES;
+	float *lows = scratch, *highs = lows + count + LANES;
+	uint32_t *where = (uint32_t *)(highs + count + LANES);
 	size_t kept = 0;
 	for (size_t k = 0; k < count; k += LANES) {
 		lanes field[FIELDS];
-		flags which;
-		memcpy(&which, entry + k, sizeof which);
-		fetch(shadow, entry + k, field);
-		lanes wait = sieve->now - field[3], contact = self.radius + field[7], x = {0}, s = {0}, r1 = {0};
-		lanes a = {0}, b = {0}, c = -(contact * contact);
+		step.fetch(shadow, entry + k, field);
+		if (sieve->images) {
+			flags which;
+			memcpy(&which, entry + k, sizeof which);
+			for (int axis = 0; axis < 3; axis++) field[axis] += shift_of(which, axis, sieve->box[axis]);
+		}
+		lanes wait = sieve->now - field[3], contact = self.radius + field[7], square = contact * contact;
+		lanes s = zero + speed, r1 = zero, a = zero, b = zero, c = -square;
 		for (int axis = 0; axis < 3; axis++) {
 			lanes theirs = field[4 + axis], v = self.velocity[axis] - theirs;
-			lanes r = self.position[axis] - shift_of(which, axis, sieve->box[axis]) - (field[axis] + theirs * wait);
-			x += size_of(field[axis]);
+			lanes r = self.position[axis] - (field[axis] + theirs * wait);
 			s += size_of(theirs);
 			r1 += size_of(r);
 			a += v * v;
 			b += r * v;
 			c += r * r;
 		}
-		s += speed;
-		lanes far = r1 + s * sieve->age, square = contact * contact;
-		lanes h = base_error + 4 * u * x + s * speed_error;
-		lanes q = 4 * h * (r1 + h) + 32 * u * (r1 * r1 + square) + 32 * n * (far * far + square) + tiny;
-		lanes error_b = s * (2 * h + 12 * u * r1 + 16 * n * far) + tiny, error_d = 2 * s * s * q + tiny;
-		lanes d = b * b - a * c, d_most = d + error_d, d_least = d - error_d;
-		flags out = less(error_b, b) | less(d_most, zero);
-		lanes low = (c - q) / (error_b - b + root(pick(less(zero, d_most), d_most, zero)));
-		flags sure = less(b + error_b, zero) & less(zero, d_least) & less(q, c);
-		lanes high = (c + q) / (root(pick(sure, d_least, zero + 1)) - b - error_b);
-		out |= less(zero + sieve->latest, low);
-		kept += pack(~out, count - k, i, which, low, pick(sure, high, never), entry + kept, lows + kept, highs + kept);
+		lanes h = h_fixed + 4 * u * r1 + h_time * s, s2 = s * s;
+		lanes q = 4 * h * (r1 + h) + (32 * u + 64 * n) * (r1 * r1 + square) + (64 * n * age * age) * s2 + tiny;
+		lanes error_b = s * (2 * h + (12 * u + 16 * n) * r1 + (16 * n * age) * s) + tiny;
+		lanes error_d = 2 * s2 * q + tiny, d = b * b - a * c, d_most = d + error_d;
+		flags out = step.less(error_b, b) | step.less(d_most, zero);
+		const uint32_t inside = count - k < LANES ? (1u << (count - k)) - 1 : (1u << LANES) - 1;
+		if (!(~step.bits(out) & inside)) continue;
+		lanes d_least = d - error_d;
+		lanes low = (c - q) / (error_b - b + step.root(pick(step.less(zero, d_most), d_most, zero)));
+		flags sure = step.less(b + error_b, zero) & step.less(zero, d_least) & step.less(q, c);
+		lanes high = (c + q) / (step.root(pick(sure, d_least, zero + 1)) - b - error_b);
+		out |= step.less(zero + sieve->latest, low);
+		kept += step.pack(~step.bits(out) & inside, (uint32_t)k, low, pick(sure, high, never), where + kept,
+						  lows + kept, highs + kept);
 	}
-	if (kept < 2 || !sieve->by_order) return kept;
-
 	float latest = INFINITY;
-	for (size_t k = 0; k < kept; k++) latest = fminf(latest, highs[k]);
-	latest = latest * 1.0001f + sieve->drift;
+	if (sieve->by_order && kept > 1) {
+		for (size_t k = 0; k < kept; k++) latest = highs[k] < latest ? highs[k] : latest;
+		latest = latest * 1.0001f + sieve->drift;
+	}
 	size_t left = 0;
 	for (size_t k = 0; k < kept; k++) {
-		entry[left] = entry[k];
+		entry[left] = entry[where[k]];
 		left += !(lows[k] > latest);
 	}
 	return left;
 }
 
-INLINE void fetch_any(const struct shadow *shadow, const uint32_t entry[LANES], lanes field[FIELDS])
+INLINE void fetch_any(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS])
 {
 	for (int lane = 0; lane < LANES; lane++) {
 		float row[FIELDS];
@@ -116,37 +124,63 @@ INLINE flags less_any(lanes a, lanes b)
 	return less;
 }
 
-INLINE size_t pack_any(flags keep, size_t valid, uint32_t self, flags which, lanes low, lanes high, uint32_t *entry,
-					   float *lows, float *highs)
+INLINE uint32_t bits_any(flags x)
+{
+	uint32_t bits = 0;
+	for (int lane = 0; lane < LANES; lane++) bits |= (uint32_t)(x[lane] & 1) << lane;
+	return bits;
+}
+
+INLINE size_t pack_any(uint32_t wanted, uint32_t first, lanes low, lanes high, uint32_t *where, float *lows,
+					   float *highs)
 {
 	size_t kept = 0;
-	for (size_t lane = 0; lane < LANES && lane < valid; lane++) {
-		entry[kept] = (uint32_t)which[lane];
+	for (; wanted; wanted &= wanted - 1) {
+		uint32_t lane = (uint32_t)__builtin_ctz(wanted);
+		where[kept] = first + lane;
 		lows[kept] = low[lane];
-		highs[kept] = high[lane];
-		kept += (size_t)(keep[lane] & (entry[kept] != self));
+		highs[kept++] = high[lane];
 	}
 	return kept;
 }
 
 static size_t pass_any(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-					   size_t count, float *bounds)
+					   size_t count, float *scratch)
 {
-	return pass(sieve, shadow, self, entry, count, bounds, fetch_any, root_any, less_any, pack_any);
+	return pass(sieve, shadow, self, entry, count, scratch,
+				(struct steps){fetch_any, root_any, less_any, bits_any, pack_any});
+}
+
+static void cast_any(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy, double vz,
+					 double radius)
+{
+	*shadow = (struct shadow){.position = {(float)x, (float)y, (float)z},
+							  .time = (float)time,
+							  .velocity = {(float)vx, (float)vy, (float)vz},
+							  .radius = (float)radius};
 }
 
 #ifdef __x86_64__
-#define AVX2 __attribute__((target("avx2,fma")))
-#define AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,fma,popcnt")))
+#define AVX2 __attribute__((target("avx2,fma,bmi,bmi2")))
+#define AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,fma,popcnt,bmi,bmi2")))
 
 AVX2 static size_t pass_avx2(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-							 size_t count, float *bounds)
+							 size_t count, float *scratch)
 {
-	return pass(sieve, shadow, self, entry, count, bounds, fetch_any, root_any, less_any, pack_any);
+	return pass(sieve, shadow, self, entry, count, scratch,
+				(struct steps){fetch_any, root_any, less_any, bits_any, pack_any});
+}
+
+AVX2 static void cast_avx2(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
+						   double vz, double radius)
+{
+	__m256 row =
+		_mm256_setr_ps((float)x, (float)y, (float)z, (float)time, (float)vx, (float)vy, (float)vz, (float)radius);
+	_mm256_store_ps((float *)shadow, row);
 }
 
 /* A transposition of two squares of eight at once: the registers hold rows 0 to 3 and 8 to 11 in their lower halves. */
-AVX512 static inline void fetch_512(const struct shadow *shadow, const uint32_t entry[LANES], lanes field[FIELDS])
+AVX512 static inline void fetch_512(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS])
 {
 	__m512 row[8], pair[8], quad[8];
 	for (int k = 0; k < 8; k++) {
@@ -181,39 +215,41 @@ AVX512 static inline flags less_512(lanes a, lanes b)
 	return (flags)_mm512_movm_epi32(_mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ));
 }
 
-AVX512 static inline size_t pack_512(flags keep, size_t valid, uint32_t self, flags which, lanes low, lanes high,
-									 uint32_t *entry, float *lows, float *highs)
+AVX512 static inline uint32_t bits_512(flags x)
 {
-	unsigned inside = valid < LANES ? (1u << valid) - 1 : (1u << LANES) - 1;
-	__mmask16 mask = _mm512_mask_cmpneq_epi32_mask(_mm512_movepi32_mask((__m512i)keep) & (__mmask16)inside,
-												   (__m512i)which, _mm512_set1_epi32((int)self));
-	_mm512_storeu_si512(entry, _mm512_maskz_compress_epi32(mask, (__m512i)which));
+	return _mm512_movepi32_mask((__m512i)x);
+}
+
+AVX512 static inline size_t pack_512(uint32_t wanted, uint32_t first, lanes low, lanes high, uint32_t *where,
+									 float *lows, float *highs)
+{
+	const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+	__mmask16 mask = (__mmask16)wanted;
+	__m512i number = _mm512_add_epi32(_mm512_set1_epi32((int)first), lane);
+	_mm512_storeu_si512(where, _mm512_maskz_compress_epi32(mask, number));
 	_mm512_storeu_ps(lows, _mm512_maskz_compress_ps(mask, (__m512)low));
 	_mm512_storeu_ps(highs, _mm512_maskz_compress_ps(mask, (__m512)high));
-	return (size_t)__builtin_popcount(mask);
+	return (size_t)__builtin_popcount(wanted);
 }
 
 AVX512 static size_t pass_512(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-							  size_t count, float *bounds)
+							  size_t count, float *scratch)
 {
-	return pass(sieve, shadow, self, entry, count, bounds, fetch_512, root_512, less_512, pack_512);
+	return pass(sieve, shadow, self, entry, count, scratch,
+				(struct steps){fetch_512, root_512, less_512, bits_512, pack_512});
 }
 #endif
 
-sieve_pass *sieve_number(size_t number, const char **name)
+const struct sieve_machine *sieve_machine(size_t number)
 {
+	static const struct sieve_machine any = {"portable", pass_any, cast_any};
 #ifdef __x86_64__
-	bool fast = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+	static const struct sieve_machine avx512 = {"AVX-512", pass_512, cast_avx2}, avx2 = {"AVX2", pass_avx2, cast_avx2};
+	bool fair = __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+	bool fast = fair && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
 				__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
-	bool fair = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-	if (fast && number-- == 0) return *name = "AVX-512", pass_512;
-	if (fair && number-- == 0) return *name = "AVX2", pass_avx2;
+	if (fast && number-- == 0) return &avx512;
+	if (fair && number-- == 0) return &avx2;
 #endif
-	return number == 0 ? *name = "portable", pass_any : NULL;
-}
-
-sieve_pass *sieve_choose(void)
-{
-	const char *name;
-	return sieve_number(0, &name);
+	return number == 0 ? &any : NULL;
 }

@@ -6,18 +6,19 @@
  * The bound, for a pair at the time of the search, with u = 2^-24, n the roundoff of the working arithmetic, and
  * 1-norms (they are cheap and never less than the Euclidean ones):
  *
- *     S    sum of both speeds                    R    distance; `far` = R + S age, the distance at the two last events
- *     h    error of a component of r: u (4 boxes + 4 (|x_i| + |x_j|) + 8 S span) + S drift; each position, speed and
- *          time is rounded once (u of itself), the flight to now twice more, the difference and the image's shift
- *          twice; a time is at most `span`, and `drift` is what the working arithmetic's own flights since the last
- *          events err by, as a time
- *     E_c  error of c = r.r - s^2:  q = 4 h (R + h) + 32 u (R^2 + s^2) + 32 n (far^2 + s^2)
- *     E_b  error of b = r.v:        S (2 h + 12 u R + 16 n far)
+ *     S    sum of both speeds                    R    distance
+ *     h    error of a component of r: u (8 boxes + 8 |x_i| + 4 R + 12 S span) + S drift. Each position, speed and time
+ *          is rounded once (u of itself), the flight to now twice more, the difference and the image's shift twice;
+ *          |x_j| is at most |x_i| + R + S span and the shift; a time is at most `span`; `drift` is what the working
+ *          arithmetic's own flights since the last events err by, as a time
+ *     E_c  error of c = r.r - s^2:  q = 4 h (R + h) + (32 u + 64 n) (R^2 + s^2) + 64 n (S age)^2
+ *     E_b  error of b = r.v:        S (2 h + (12 u + 16 n) R + 16 n S age)
  *     E_D  error of b^2 - a c:      2 S^2 q
  *
- * The terms in n bound the working arithmetic's polynomial, formed at the later of the two last events (coefficients
- * within 4 n S^2, 6 n far S, 8 n (far^2 + s^2)) and shifted to now. First-order sums of these give half of the figures
- * above or less; the other half pays for second orders, for the rounding of the bounds and for subnormal numbers.
+ * The terms in n bound the working arithmetic's polynomial, formed at the later of the two last events, when the
+ * distance was at most F = R + S age (coefficients within 4 n S^2, 6 n F S, 8 n (F^2 + s^2)), and shifted to now.
+ * First-order sums of these give half of the figures above or less; the other half pays for second orders, for the
+ * rounding of the bounds and for subnormal numbers. Whether products and sums are fused does not matter.
  *
  * A pair is left out when it surely parts (b > E_b: what it may have met is in the past), surely misses (D < -E_D), or
  * surely meets later than some other pair surely meets. A comparison with a NaN leaves nothing out. */
@@ -43,16 +44,26 @@ struct sieve {
 	float drift;    /* error of its flights, as a time */
 	float latest;   /* meetings surely later are of no interest; INFINITY for none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
+	bool images;    /* whether any entry may be an image */
 };
 
-/* Goes through `count` entries (engine/cells.h) that particle `self` may meet, whose own shadow is as of now, and
- * leaves in `entry` those that may be met first. Returns how many. `entry` is filled up with
- * particles that exist to a multiple of 16, and has room for 16 more; `bounds` has room for 2 (count + 16). */
+/* Goes through `count` entries (engine/cells.h) that particle `self`, whose own shadow is as of now, may meet, and
+ * leaves in `entry` those that may be met first. Returns how many. Behind the last entry stand 16 more that name
+ * particles which exist. `scratch` has room for 3 (count + 16) numbers. */
 typedef size_t sieve_pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-						  size_t count, float *bounds);
+						  size_t count, float *scratch);
 
-/* The fastest there is on this machine; and each of them, for tests: NULL after the last. */
-sieve_pass *sieve_choose(void);
-sieve_pass *sieve_number(size_t number, const char **name);
+/* Writes a shadow whole: what is written in pieces is slow to be read back whole. */
+typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
+						double vz, double radius);
+
+/* How a machine does it. Number 0 is the fastest there is on this one; the others are there to be compared: NULL after
+ * the last. */
+struct sieve_machine {
+	const char *name;
+	sieve_pass *pass;
+	sieve_cast *cast;
+};
+const struct sieve_machine *sieve_machine(size_t number);
 
 #endif

@@ -78,9 +78,9 @@ struct method {
 /* The shadows of all particles, and the scale they are cast in: engine/shadow.inl. */
 struct shadows {
 	struct shadow *shadow; /* NULL: the sieve is not used */
-	sieve_pass *pass;
+	const struct sieve_machine *machine;
 	struct sieve sieve;
-	float *bounds;
+	float *scratch;
 	double base_page, base_time;            /* when the shadows' time is 0 */
 	double per_length, per_time, per_speed; /* units, all powers of two */
 	double now;                             /* time of the search, since the base */
@@ -125,7 +125,7 @@ struct touchstone_engine {
 	double slack;                /* how much wider than `largest` a cell must be for rounding not to matter */
 	double cell_side[3];
 	struct cells cells;
-	uint32_t *candidate; /* entries that a search has listed */
+	uint32_t *candidate[2]; /* entries that a search has listed; two searches may be under way */
 	struct shadows shadows;
 	struct agenda agenda;
 
