@@ -79,7 +79,8 @@ static void set_scales(struct touchstone_engine *engine, const struct touchstone
 	speed = fmax(sqrt(speed / (double)scene->particle_count), sqrt(pull * engine->largest));
 	int exponent = 1;
 	if (speed > 0) frexp(engine->largest / speed, &exponent);
-	engine->page_length = ldexp(1, exponent - 1);
+	engine->page_turn = engine->page_length = ldexp(1, exponent - 1);
+	engine->pages_per_time = 1 / engine->page_length;
 }
 
 /* A position as a place and the rest. */

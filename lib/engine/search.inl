@@ -144,42 +144,50 @@ static double crossing_time(double gap, double speed, double acceleration, doubl
 	return gap_now <= 0 && speed + acceleration * passed > 0 ? passed : INFINITY;
 }
 
+/* How long after its last event a particle leaves its cell along an axis, and whether by the upper face. */
+static double leaving_along(const struct touchstone_engine *engine, uint32_t i, int axis, bool *upper)
+{
+	const struct body *body = &engine->body[i];
+	double side = engine->cell_side[axis], speed = to_double(body->velocity[axis]);
+	double position = to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
+	int cell = engine->home[i].cell[axis];
+	bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
+	bool closed_low = ends && cell == 1, closed_high = ends && cell == engine->cells.count[axis];
+	double low = (cell - 1) * side - engine->box[axis] / 2, high = low + side;
+	if (!engine->accelerated) { /* without branches that a processor would have to guess */
+		*upper = speed > 0;
+		double time = ((cell - 1 + *upper) * side - engine->box[axis] / 2 - position) / speed;
+		bool never = (*upper ? closed_high : closed_low) | (speed == 0);
+		return never ? INFINITY : time;
+	}
+	double gravity = to_double(engine->acceleration[axis]), up = INFINITY, down = INFINITY,
+		   passed = moment_double(engine->now) - (body->page + to_double(body->time));
+	if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
+	if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
+	*upper = up < down;
+	return *upper ? up : down;
+}
+
 /* When, since its page began, a particle leaves its cell, and by which face; INFINITY if it never does. In double for
  * every arithmetic: the cells' slack pays for the rounding. */
 static double leaving(const struct touchstone_engine *engine, uint32_t i, double *page, uint8_t *next)
 {
-	const struct body *body = &engine->body[i];
-	const struct home *home = &engine->home[i];
 	if (!engine->cells.entry) return INFINITY;
-	double time = to_double(body->time), soonest = INFINITY;
+	double soonest = INFINITY;
+	int face = 0;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
-		double side = engine->cell_side[axis], speed = to_double(body->velocity[axis]);
-		double position = to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
-		double low = (home->cell[axis] - 1) * side - engine->box[axis] / 2, high = low + side;
-		bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
-		bool closed_low = ends && home->cell[axis] == 1,
-			 closed_high = ends && home->cell[axis] == engine->cells.count[axis];
-		double up = INFINITY, down = INFINITY;
-		if (!engine->accelerated) {
-			bool rises = speed > 0;
-			if (speed != 0 && !(rises ? closed_high : closed_low)) up = ((rises ? high : low) - position) / speed;
-			if (up < soonest) soonest = up, *next = (uint8_t)(1 + 2 * axis + rises);
-			continue;
-		}
-		double gravity = to_double(engine->acceleration[axis]),
-			   passed = moment_double(engine->now) - (body->page + time);
-		if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
-		if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
-		if (up < soonest) soonest = up, *next = (uint8_t)(2 + 2 * axis);
-		if (down < soonest) soonest = down, *next = (uint8_t)(1 + 2 * axis);
+		bool upper;
+		double time = leaving_along(engine, i, axis, &upper);
+		face = time < soonest ? 1 + 2 * axis + upper : face;
+		soonest = time < soonest ? time : soonest;
 	}
-	if (soonest == INFINITY) return INFINITY;
-	soonest += time;
-	double pages = soonest >= engine->page_length ? floor(soonest / engine->page_length) : 0;
-	if (pages > 0x1p52) return INFINITY;
-	if (pages > 0) soonest -= pages * engine->page_length;
-	*page = body->page + (pages > 0 ? pages * engine->page_length : 0);
-	return soonest;
+	*next = (uint8_t)face;
+	soonest += to_double(engine->body[i].time);
+	double pages = soonest * engine->pages_per_time;
+	if (!(pages < 0x1p52) || soonest == INFINITY) return INFINITY;
+	double turned = pages > 0 ? (double)(int64_t)pages * engine->page_turn : 0;
+	*page = engine->body[i].page + turned;
+	return soonest - turned;
 }
 
 static bool note_holds(const void *context, struct note note)

@@ -118,6 +118,8 @@ struct touchstone_engine {
 	double place_width[3]; /* the same; 0 on an axis that has no places */
 	int32_t places[3];     /* per box, on a periodic axis */
 	double page_length;    /* INFINITY: the page is never turned */
+	double pages_per_time; /* its reciprocal, exactly */
+	double page_turn;      /* the length, or 0 */
 
 	/* where to look */
 	enum touchstone_search search;
