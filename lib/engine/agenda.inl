@@ -114,9 +114,14 @@ static bool pile_move(struct agenda *agenda, struct pile *pile)
 	return true;
 }
 
+static struct pile *agenda_pile(const struct agenda *agenda, double day)
+{
+	return &agenda->pile[(size_t)(int64_t)day & (agenda->days - 1)];
+}
+
 static void pile_add(struct agenda *agenda, double day, struct note note)
 {
-	struct pile *pile = &agenda->pile[(size_t)(int64_t)day & (agenda->days - 1)];
+	struct pile *pile = agenda_pile(agenda, day);
 	if (pile->used == PILE && !pile_move(agenda, pile)) {
 		agenda->exhausted = true;
 		return;
@@ -227,7 +232,7 @@ static bool agenda_open(struct agenda *agenda, const void *context, bool *turned
 			agenda_turn(agenda, context, agenda->today);
 			*turned = true;
 		}
-		struct pile *pile = &agenda->pile[(size_t)(int64_t)agenda->today & (agenda->days - 1)];
+		struct pile *pile = agenda_pile(agenda, agenda->today);
 		pile_enter(agenda, context, pile);
 		while (pile->more) {
 			uint32_t number = pile->more;

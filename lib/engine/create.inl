@@ -27,9 +27,8 @@ static void engine_destroy(struct touchstone_engine *engine)
 	if (!engine) return;
 	cells_destroy(&engine->cells);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body,         engine->place,          engine->appointment,    engine->home,
-					 engine->index_of,     engine->radius,         engine->mass,           engine->wall,
-					 engine->candidate[0], engine->shadows.shadow, engine->shadows.scratch};
+	void *owned[] = {engine->body,   engine->place, engine->appointment, engine->home,         engine->index_of,
+					 engine->radius, engine->mass,  engine->wall,        engine->candidate[0], engine->shadows.shadow};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }

@@ -41,13 +41,11 @@ static bool make_cells(struct touchstone_engine *engine, const int count[3], uin
 	for (;; capacity *= 2) {
 		cells_destroy(&engine->cells);
 		free(engine->candidate[0]);
-		free(engine->shadows.scratch);
-		engine->candidate[0] = NULL, engine->shadows.scratch = NULL;
+		engine->candidate[0] = NULL;
 		if (!cells_create(&engine->cells, engine->dimensions, engine->periodic, count, capacity)) return false;
 		size_t most = cells_most(&engine->cells) + 32;
 		engine->candidate[0] = malloc(2 * most * sizeof *engine->candidate[0]);
-		engine->shadows.scratch = malloc(3 * most * sizeof *engine->shadows.scratch);
-		if (!engine->candidate[0] || !engine->shadows.scratch) return false;
+		if (!engine->candidate[0]) return false;
 		engine->candidate[1] = engine->candidate[0] + most;
 		if (fill_cells(engine)) return true;
 	}

@@ -81,36 +81,6 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 	for (int p = 0; p < particles; p++) schedule(engine, met[p]);
 }
 
-static const uint32_t beyond_cache = 20000; /* particles whose bodies and cells fill a second-level cache */
-
-/* A day has been opened: fetches what its events will read, while earlier ones are worked on. A processor cannot guess
- * these addresses, and waiting for memory is most of the time of a large scene. */
-static void anticipate(const struct touchstone_engine *engine)
-{
-	const struct agenda *agenda = &engine->agenda;
-	uint32_t particle[2 * 64];
-	size_t particles = 0;
-	for (size_t e = 0; e < agenda->size && particles < 2 * 64 - 1; e++) {
-		const struct entry *entry = &agenda->heap[e];
-		particle[particles++] = entry->note.particle;
-		if (entry->kind == 1 + TOUCHSTONE_CONTACT) particle[particles++] = entry_particle(entry->partner);
-	}
-	for (size_t p = 0; p < particles; p++) {
-		__builtin_prefetch(&engine->home[particle[p]]);
-		__builtin_prefetch(&engine->appointment[particle[p]]);
-		__builtin_prefetch(&engine->body[particle[p]]);
-	}
-	for (size_t p = 0; p < particles; p++) {
-		const uint32_t *cell = engine->cells.entry + cells_index(&engine->cells, engine->home[particle[p]].cell);
-		for (int row = 0; row < engine->cells.rows; row++) __builtin_prefetch(cell + engine->cells.row[row]);
-	}
-	for (size_t p = 0; p < particles; p++) {
-		uint32_t *list = engine->candidate[0];
-		size_t neighbours = cells_around(&engine->cells, engine->home[particle[p]].cell, particle[p], list);
-		for (size_t n = 0; n < neighbours; n++) __builtin_prefetch(&engine->shadows.shadow[entry_particle(list[n])]);
-	}
-}
-
 /* Takes the engine to a time at which nothing happens. */
 static void wait_until(struct touchstone_engine *engine, double time)
 {
@@ -156,7 +126,6 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 				continue;
 			}
 			if (engine->shadows.now > shadows_last) cast_shadows(engine);
-			if (engine->count > beyond_cache) anticipate(engine);
 		}
 		struct entry entry = agenda->heap[0];
 		uint32_t i = entry.note.particle;

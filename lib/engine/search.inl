@@ -214,21 +214,42 @@ static bool entry_first(const void *context, const struct entry *a, const struct
 		   rank_of(context, b->note.particle, b->partner, (uint8_t)(b->kind - 1));
 }
 
+/* Does a straight flight end inside the cell it is in? Then no face is passed before, and when is no matter. */
+static bool stays(const struct touchstone_engine *engine, uint32_t i, double flight)
+{
+	const struct body *body = &engine->body[i];
+	const struct place *place = &engine->place[i];
+	if (engine->accelerated) return false;
+	bool inside = true;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		double place_at = place->index[axis] * engine->place_width[axis] + engine->box[axis] / 2;
+		double end = to_double(body->position[axis]) + place_at + to_double(body->velocity[axis]) * flight;
+		double beyond = end - (engine->home[i].cell[axis] - 1) * engine->cell_side[axis];
+		inside &= (beyond > 0) & (beyond < engine->cell_side[axis]);
+	}
+	return inside;
+}
+
 /* Puts the next thing that happens to a particle on the agenda. What was there for it no longer holds. */
 static void schedule(struct touchstone_engine *engine, uint32_t i)
 {
 	struct appointment *appointment = &engine->appointment[i];
 	struct home *home = &engine->home[i];
-	double page = 0;
+	double page = appointment->page, time = double_below(appointment->time);
 	bool meets = home->meets != MEETS_NOTHING;
 	appointment->stamp++;
-	home->leaves = leaving(engine, i, &page, &home->next);
-	if (meets && (home->leaves == INFINITY || appointment->page < page ||
-				  (appointment->page == page && double_below(appointment->time) <= home->leaves))) {
-		page = appointment->page;
-		home->next = NEXT_IS_PHYSICAL;
-	} else if (home->leaves == INFINITY) {
-		return;
+	home->next = NEXT_IS_PHYSICAL;
+	if (!meets || !stays(engine, i, (page - engine->body[i].page) + (time - to_double(engine->body[i].time)))) {
+		double leaves_page = 0;
+		uint8_t face;
+		home->leaves = leaving(engine, i, &leaves_page, &face);
+		bool leaves = home->leaves < INFINITY;
+		if (leaves && (!meets || leaves_page < page || (leaves_page == page && home->leaves < time))) {
+			home->next = face;
+			page = leaves_page;
+		} else if (!meets) {
+			return;
+		}
 	}
 	agenda_push(&engine->agenda, engine, page, entry_of(engine, (struct note){i, appointment->stamp}));
 }

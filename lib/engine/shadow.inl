@@ -99,7 +99,7 @@ static size_t sift(struct touchstone_engine *engine, uint32_t i, uint32_t *candi
 		double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - shadows->now;
 		sieve->latest = (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->drift);
 	}
-	candidates = shadows->machine->pass(sieve, shadows->shadow, i, candidate, candidates, shadows->scratch);
+	candidates = shadows->machine->pass(sieve, shadows->shadow, i, candidate, candidates);
 	for (size_t k = 0; k < candidates; k++) __builtin_prefetch(&engine->body[entry_particle(candidate[k])]);
 	return candidates;
 }

@@ -21,8 +21,8 @@ struct steps {
 	lanes (*root)(lanes x);
 	flags (*less)(lanes a, lanes b);
 	uint32_t (*bits)(flags x); /* one for each lane that is set */
-	/* what is wanted, close together: numbers of lanes from `first` on, and their bounds; returns how many */
-	size_t (*pack)(uint32_t wanted, uint32_t first, lanes low, lanes high, uint32_t *where, float *lows, float *highs);
+	float (*least)(lanes x);
+	size_t (*pack)(uint32_t wanted, const uint32_t *from, uint32_t *to); /* what is wanted, close together: how many */
 };
 
 INLINE lanes size_of(lanes x)
@@ -43,7 +43,7 @@ INLINE lanes shift_of(flags entry, int axis, float box)
 }
 
 INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, uint32_t *entry, size_t count,
-				   float *scratch, const struct steps step)
+				   const struct steps step)
 {
 	static const float u = 0x1p-24f, tiny = 0x1p-120f;
 	const struct shadow self = shadow[i];
@@ -52,8 +52,7 @@ INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint3
 				speed = fabsf(self.velocity[0]) + fabsf(self.velocity[1]) + fabsf(self.velocity[2]),
 				h_fixed = 8 * u * (sieve->boxes + size), h_time = 12 * u * sieve->span + sieve->drift;
 	const lanes zero = {0}, never = zero + INFINITY;
-	float *lows = scratch, *highs = lows + count + LANES;
-	uint32_t *where = (uint32_t *)(highs + count + LANES);
+	float latest = sieve->latest;
 	size_t kept = 0;
 	for (size_t k = 0; k < count; k += LANES) {
 		lanes field[FIELDS];
@@ -85,21 +84,14 @@ INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint3
 		lanes low = (c - q) / (error_b - b + step.root(pick(step.less(zero, d_most), d_most, zero)));
 		flags sure = step.less(b + error_b, zero) & step.less(zero, d_least) & step.less(q, c);
 		lanes high = (c + q) / (step.root(pick(sure, d_least, zero + 1)) - b - error_b);
-		out |= step.less(zero + sieve->latest, low);
-		kept += step.pack(~step.bits(out) & inside, (uint32_t)k, low, pick(sure, high, never), where + kept,
-						  lows + kept, highs + kept);
+		if (sieve->by_order) {
+			float soonest = step.least(pick(sure, high, never)) * 1.0001f + sieve->drift;
+			latest = soonest < latest ? soonest : latest;
+			out |= step.less(zero + latest, low);
+		}
+		kept += step.pack(~step.bits(out) & inside, entry + k, entry + kept);
 	}
-	float latest = INFINITY;
-	if (sieve->by_order && kept > 1) {
-		for (size_t k = 0; k < kept; k++) latest = highs[k] < latest ? highs[k] : latest;
-		latest = latest * 1.0001f + sieve->drift;
-	}
-	size_t left = 0;
-	for (size_t k = 0; k < kept; k++) {
-		entry[left] = entry[where[k]];
-		left += !(lows[k] > latest);
-	}
-	return left;
+	return kept;
 }
 
 INLINE void fetch_any(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS])
@@ -131,24 +123,25 @@ INLINE uint32_t bits_any(flags x)
 	return bits;
 }
 
-INLINE size_t pack_any(uint32_t wanted, uint32_t first, lanes low, lanes high, uint32_t *where, float *lows,
-					   float *highs)
+INLINE float least_any(lanes x)
+{
+	float least = x[0];
+	for (int lane = 1; lane < LANES; lane++) least = x[lane] < least ? x[lane] : least;
+	return least;
+}
+
+INLINE size_t pack_any(uint32_t wanted, const uint32_t *from, uint32_t *to)
 {
 	size_t kept = 0;
-	for (; wanted; wanted &= wanted - 1) {
-		uint32_t lane = (uint32_t)__builtin_ctz(wanted);
-		where[kept] = first + lane;
-		lows[kept] = low[lane];
-		highs[kept++] = high[lane];
-	}
+	for (; wanted; wanted &= wanted - 1) to[kept++] = from[__builtin_ctz(wanted)];
 	return kept;
 }
 
 static size_t pass_any(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-					   size_t count, float *scratch)
+					   size_t count)
 {
-	return pass(sieve, shadow, self, entry, count, scratch,
-				(struct steps){fetch_any, root_any, less_any, bits_any, pack_any});
+	return pass(sieve, shadow, self, entry, count,
+				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
 }
 
 static void cast_any(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy, double vz,
@@ -165,10 +158,10 @@ static void cast_any(struct shadow *shadow, double x, double y, double z, double
 #define AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,fma,popcnt,bmi,bmi2")))
 
 AVX2 static size_t pass_avx2(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-							 size_t count, float *scratch)
+							 size_t count)
 {
-	return pass(sieve, shadow, self, entry, count, scratch,
-				(struct steps){fetch_any, root_any, less_any, bits_any, pack_any});
+	return pass(sieve, shadow, self, entry, count,
+				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
 }
 
 AVX2 static void cast_avx2(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
@@ -220,23 +213,16 @@ AVX512 static inline uint32_t bits_512(flags x)
 	return _mm512_movepi32_mask((__m512i)x);
 }
 
-AVX512 static inline size_t pack_512(uint32_t wanted, uint32_t first, lanes low, lanes high, uint32_t *where,
-									 float *lows, float *highs)
+AVX512 static inline float least_512(lanes x)
 {
-	const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-	__mmask16 mask = (__mmask16)wanted;
-	__m512i number = _mm512_add_epi32(_mm512_set1_epi32((int)first), lane);
-	_mm512_storeu_si512(where, _mm512_maskz_compress_epi32(mask, number));
-	_mm512_storeu_ps(lows, _mm512_maskz_compress_ps(mask, (__m512)low));
-	_mm512_storeu_ps(highs, _mm512_maskz_compress_ps(mask, (__m512)high));
-	return (size_t)__builtin_popcount(wanted);
+	return _mm512_reduce_min_ps((__m512)x);
 }
 
 AVX512 static size_t pass_512(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-							  size_t count, float *scratch)
+							  size_t count)
 {
-	return pass(sieve, shadow, self, entry, count, scratch,
-				(struct steps){fetch_512, root_512, less_512, bits_512, pack_512});
+	return pass(sieve, shadow, self, entry, count,
+				(struct steps){fetch_512, root_512, less_512, bits_512, least_512, pack_any});
 }
 #endif
 

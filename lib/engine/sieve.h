@@ -49,9 +49,9 @@ struct sieve {
 
 /* Goes through `count` entries (engine/cells.h) that particle `self`, whose own shadow is as of now, may meet, and
  * leaves in `entry` those that may be met first. Returns how many. Behind the last entry stand 16 more that name
- * particles which exist. `scratch` has room for 3 (count + 16) numbers. */
+ * particles which exist. */
 typedef size_t sieve_pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-						  size_t count, float *scratch);
+						  size_t count);
 
 /* Writes a shadow whole: what is written in pieces is slow to be read back whole. */
 typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,

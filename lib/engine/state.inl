@@ -80,7 +80,6 @@ struct shadows {
 	struct shadow *shadow; /* NULL: the sieve is not used */
 	const struct sieve_machine *machine;
 	struct sieve sieve;
-	float *scratch;
 	double base_page, base_time;            /* when the shadows' time is 0 */
 	double per_length, per_time, per_speed; /* units, all powers of two */
 	double now;                             /* time of the search, since the base */
