@@ -16,7 +16,7 @@ struct note {
 struct entry {
 	num time; /* since the page began */
 	struct note note;
-	uint32_t partner; /* as in struct appointment */
+	uint32_t partner; /* as in struct itinerary */
 	uint32_t kind;    /* 0: bookkeeping, which goes first; otherwise 1 + what the particle meets */
 };
 

@@ -27,8 +27,8 @@ static void engine_destroy(struct touchstone_engine *engine)
 	if (!engine) return;
 	cells_destroy(&engine->cells);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body,   engine->place, engine->appointment, engine->home,         engine->index_of,
-					 engine->radius, engine->mass,  engine->wall,        engine->candidate[0], engine->shadows.shadow};
+	void *owned[] = {engine->body, engine->place, engine->itinerary,    engine->index_of,      engine->radius,
+					 engine->mass, engine->wall,  engine->candidate[0], engine->shadows.shadow};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -148,11 +148,10 @@ static bool set_particles(struct touchstone_engine *engine, const struct touchst
 	engine->count = (uint32_t)count;
 	engine->body = aligned_alloc(64, (count * sizeof *engine->body + 63) / 64 * 64);
 	engine->place = calloc(count, sizeof *engine->place);
-	engine->appointment = calloc(count, sizeof *engine->appointment);
-	engine->home = calloc(count, sizeof *engine->home);
+	engine->itinerary = aligned_alloc(64, count * sizeof *engine->itinerary);
 	engine->index_of = malloc(count * sizeof *engine->index_of);
 	struct ordered *order = malloc(count * sizeof *order);
-	bool enough = engine->body && engine->place && engine->appointment && engine->home && engine->index_of && order;
+	bool enough = engine->body && engine->place && engine->itinerary && engine->index_of && order;
 	for (size_t id = 0; enough && id < count; id++) {
 		double cell[3] = {0};
 		for (int axis = 0; axis < engine->dimensions; axis++)
@@ -170,8 +169,7 @@ static bool set_particles(struct touchstone_engine *engine, const struct touchst
 		body->time = from_double(0);
 		body->page = 0;
 		engine->place[i].species = particle->species;
-		engine->home[i].id = id;
-		engine->home[i].meets = MEETS_NOTHING;
+		engine->itinerary[i] = (struct itinerary){.id = id, .meets = MEETS_NOTHING, .time = from_double(0)};
 		engine->index_of[id] = i;
 	}
 	free(order);

@@ -31,7 +31,7 @@ static uint16_t cell_of(const struct touchstone_engine *engine, double coordinat
 static bool fill_cells(struct touchstone_engine *engine)
 {
 	for (uint32_t i = 0; i < engine->count; i++)
-		if (!cells_insert(&engine->cells, engine->home[i].cell, i)) return false;
+		if (!cells_insert(&engine->cells, engine->itinerary[i].cell, i)) return false;
 	return true;
 }
 
@@ -80,7 +80,7 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 				engine->place[i].index[axis] -= (int32_t)(boxes * engine->places[axis]);
 				coordinate -= boxes * box;
 			}
-			engine->home[i].cell[axis] = cell_of(engine, coordinate, axis);
+			engine->itinerary[i].cell[axis] = cell_of(engine, coordinate, axis);
 		}
 	}
 	return make_cells(engine, count, 4);
@@ -96,15 +96,15 @@ static int compare_doubles(const void *a, const void *b)
 static double day_length(const struct touchstone_engine *engine)
 {
 	enum { SAMPLE = 1024 };
-	static const double entries_per_day = 12;
+	static const double entries_per_day = 9;
 	double wait[SAMPLE], now = moment_double(engine->now);
 	uint32_t found = 0, stride = engine->count / SAMPLE + 1;
 	for (uint32_t i = 0; i < engine->count; i += stride) {
-		const struct appointment *appointment = &engine->appointment[i];
+		const struct itinerary *itinerary = &engine->itinerary[i];
 		uint8_t next;
 		double page = 0, key = leaving(engine, i, &page, &next), soonest = page + key - now;
-		if (engine->home[i].meets != MEETS_NOTHING)
-			soonest = fmin(soonest, appointment->page + to_double(appointment->time) - now);
+		if (engine->itinerary[i].meets != MEETS_NOTHING)
+			soonest = fmin(soonest, itinerary->page + to_double(itinerary->time) - now);
 		if (soonest > 0 && soonest < INFINITY) wait[found++] = soonest;
 	}
 	double day = fmin(engine->page_length, 1);
@@ -122,7 +122,7 @@ static double day_length(const struct touchstone_engine *engine)
 static bool lay_out_agenda(struct touchstone_engine *engine, double day)
 {
 	size_t days = 64;
-	while (days < engine->count / 2) days *= 2;
+	while (days < engine->count / 4) days *= 2;
 	agenda_destroy(&engine->agenda);
 	if (!agenda_create(&engine->agenda, day, days, engine->now.page, to_double(engine->now.time))) return false;
 	for (uint32_t i = 0; i < engine->count; i++) schedule(engine, i);

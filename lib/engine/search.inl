@@ -3,9 +3,9 @@
 /* Ties in time are broken by kind, particles and image, never by where a structure happens to hold them. */
 static uint64_t rank_of(const struct touchstone_engine *engine, uint32_t i, uint32_t partner, uint8_t meets)
 {
-	uint64_t low = engine->home[i].id, high = partner, images = 0;
+	uint64_t low = engine->itinerary[i].id, high = partner, images = 0;
 	if (meets == TOUCHSTONE_CONTACT) {
-		high = engine->home[entry_particle(partner)].id;
+		high = engine->itinerary[entry_particle(partner)].id;
 		images = partner >> ENTRY_BITS;
 		if (high < low) { /* the same pair seen from the other side: +1 and -1 change places */
 			uint64_t other = low;
@@ -27,8 +27,8 @@ static void halt(struct touchstone_engine *engine, uint32_t i, const struct body
 {
 	bool pair = meets == TOUCHSTONE_CONTACT, negative = less(wait, from_double(0));
 	engine->verdict = negative || is_finite(later->velocity[0]) ? TOUCHSTONE_HALTED : TOUCHSTONE_DIVERGED;
-	engine->blamed[0] = engine->home[i].id;
-	engine->blamed[1] = pair ? engine->home[entry_particle(partner)].id : partner;
+	engine->blamed[0] = engine->itinerary[i].id;
+	engine->blamed[1] = pair ? engine->itinerary[entry_particle(partner)].id : partner;
 	snprintf(engine->reason, sizeof engine->reason, "the time from particle %u to %s %u is %s, at t = %.17g",
 			 engine->blamed[0], pair ? "particle" : "wall", engine->blamed[1], negative ? "negative" : "not a number",
 			 later->page + to_double(later->time));
@@ -84,14 +84,14 @@ static void consider_walls(struct touchstone_engine *engine, uint32_t i, struct 
 
 static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct plan *plan)
 {
-	struct appointment *appointment = &engine->appointment[i];
-	engine->home[i].meets = plan->meets;
+	struct itinerary *itinerary = &engine->itinerary[i];
+	engine->itinerary[i].meets = plan->meets;
 	if (!plan->fresh) return;
-	appointment->time = plan->moment.time;
-	appointment->page = plan->moment.page;
-	appointment->partner = plan->partner;
+	itinerary->time = plan->moment.time;
+	itinerary->page = plan->moment.page;
+	itinerary->partner = plan->partner;
 	if (plan->meets == TOUCHSTONE_CONTACT)
-		appointment->partner_changes = engine->appointment[entry_particle(plan->partner)].changes;
+		itinerary->partner_changes = engine->itinerary[entry_particle(plan->partner)].changes;
 }
 
 /* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
@@ -105,7 +105,7 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 	if (engine->count > 1) {
 		uint32_t *const *list = engine->candidate;
 		for (int p = 0; p < particles; p++)
-			candidates[p] = cells_around(&engine->cells, engine->home[particle[p]].cell, particle[p], list[p]);
+			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
 		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
 		for (int p = 0; p < particles; p++) consider_pairs(engine, particle[p], list[p], candidates[p], &plan[p]);
 	}
@@ -121,10 +121,10 @@ static void predict(struct touchstone_engine *engine, uint32_t i)
  * do stands unless something comes before it; if that is stale, its partner's own search has seen what replaced it. */
 static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axis, int side)
 {
-	const struct appointment *appointment = &engine->appointment[i];
-	struct plan plan = {{appointment->page, appointment->time}, appointment->partner, engine->home[i].meets, false};
+	const struct itinerary *itinerary = &engine->itinerary[i];
+	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, engine->itinerary[i].meets, false};
 	uint32_t *list = engine->candidate[0];
-	size_t candidates = cells_beyond(&engine->cells, engine->home[i].cell, axis, side, i, list);
+	size_t candidates = cells_beyond(&engine->cells, engine->itinerary[i].cell, axis, side, i, list);
 	candidates = sift(engine, i, list, candidates, &plan);
 	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);
@@ -150,7 +150,7 @@ static double leaving_along(const struct touchstone_engine *engine, uint32_t i, 
 	const struct body *body = &engine->body[i];
 	double side = engine->cell_side[axis], speed = to_double(body->velocity[axis]);
 	double position = to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
-	int cell = engine->home[i].cell[axis];
+	int cell = engine->itinerary[i].cell[axis];
 	bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
 	bool closed_low = ends && cell == 1, closed_high = ends && cell == engine->cells.count[axis];
 	double low = (cell - 1) * side - engine->box[axis] / 2, high = low + side;
@@ -193,16 +193,16 @@ static double leaving(const struct touchstone_engine *engine, uint32_t i, double
 static bool note_holds(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	return engine->appointment[note.particle].stamp == note.stamp;
+	return engine->itinerary[note.particle].stamp == note.stamp;
 }
 
 static struct entry entry_of(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	const struct home *home = &engine->home[note.particle];
-	if (home->next != NEXT_IS_PHYSICAL) return (struct entry){.time = from_double(home->leaves), .note = note};
-	const struct appointment *appointment = &engine->appointment[note.particle];
-	return (struct entry){appointment->time, note, appointment->partner, UINT32_C(1) + home->meets};
+	const struct itinerary *itinerary = &engine->itinerary[note.particle];
+	if (itinerary->next != NEXT_IS_PHYSICAL)
+		return (struct entry){.time = from_double(itinerary->leaves), .note = note};
+	return (struct entry){itinerary->time, note, itinerary->partner, UINT32_C(1) + itinerary->meets};
 }
 
 static bool entry_first(const void *context, const struct entry *a, const struct entry *b)
@@ -224,7 +224,7 @@ static bool stays(const struct touchstone_engine *engine, uint32_t i, double fli
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		double place_at = place->index[axis] * engine->place_width[axis] + engine->box[axis] / 2;
 		double end = to_double(body->position[axis]) + place_at + to_double(body->velocity[axis]) * flight;
-		double beyond = end - (engine->home[i].cell[axis] - 1) * engine->cell_side[axis];
+		double beyond = end - (engine->itinerary[i].cell[axis] - 1) * engine->cell_side[axis];
 		inside &= (beyond > 0) & (beyond < engine->cell_side[axis]);
 	}
 	return inside;
@@ -233,23 +233,22 @@ static bool stays(const struct touchstone_engine *engine, uint32_t i, double fli
 /* Puts the next thing that happens to a particle on the agenda. What was there for it no longer holds. */
 static void schedule(struct touchstone_engine *engine, uint32_t i)
 {
-	struct appointment *appointment = &engine->appointment[i];
-	struct home *home = &engine->home[i];
-	double page = appointment->page, time = double_below(appointment->time);
-	bool meets = home->meets != MEETS_NOTHING;
-	appointment->stamp++;
-	home->next = NEXT_IS_PHYSICAL;
+	struct itinerary *itinerary = &engine->itinerary[i];
+	double page = itinerary->page, time = double_below(itinerary->time);
+	bool meets = itinerary->meets != MEETS_NOTHING;
+	itinerary->stamp++;
+	itinerary->next = NEXT_IS_PHYSICAL;
 	if (!meets || !stays(engine, i, (page - engine->body[i].page) + (time - to_double(engine->body[i].time)))) {
 		double leaves_page = 0;
 		uint8_t face;
-		home->leaves = leaving(engine, i, &leaves_page, &face);
-		bool leaves = home->leaves < INFINITY;
-		if (leaves && (!meets || leaves_page < page || (leaves_page == page && home->leaves < time))) {
-			home->next = face;
+		itinerary->leaves = leaving(engine, i, &leaves_page, &face);
+		bool leaves = itinerary->leaves < INFINITY;
+		if (leaves && (!meets || leaves_page < page || (leaves_page == page && itinerary->leaves < time))) {
+			itinerary->next = face;
 			page = leaves_page;
 		} else if (!meets) {
 			return;
 		}
 	}
-	agenda_push(&engine->agenda, engine, page, entry_of(engine, (struct note){i, appointment->stamp}));
+	agenda_push(&engine->agenda, engine, page, entry_of(engine, (struct note){i, itinerary->stamp}));
 }

@@ -93,7 +93,7 @@ static size_t sift(struct touchstone_engine *engine, uint32_t i, uint32_t *candi
 	struct shadows *shadows = &engine->shadows;
 	if (!shadows->shadow) return candidates;
 	struct sieve *sieve = &shadows->sieve;
-	sieve->images = cells_at_border(&engine->cells, engine->home[i].cell);
+	sieve->images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
 	sieve->latest = INFINITY;
 	if (sieve->by_order && plan->meets != MEETS_NOTHING) {
 		double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - shadows->now;

@@ -16,26 +16,23 @@ struct place {
 	uint32_t species;
 };
 
-/* The next physical event of a particle, as far as it knows. */
-struct appointment {
-	num time;
+enum { MEETS_NOTHING = 255 };
+enum { NEXT_IS_PHYSICAL = 0 }; /* otherwise 1 + 2 axis + (side > 0): a cell is left that way */
+
+/* Where a particle is and what comes next for it, as far as it knows: one cache line in binary64. */
+struct itinerary {
+	_Alignas(64) num time; /* of its next physical event */
 	double page;
+	double leaves;            /* its cell, if that comes first: since the page began */
 	uint32_t partner;         /* entry of the other particle, or number of the wall */
 	uint32_t partner_changes; /* of the other, when this was found: if it has had more, this is no longer true */
 	uint32_t changes;         /* of this particle: its events, and its moves to another image */
 	uint32_t stamp;           /* of its valid note in the agenda */
-};
-
-enum { MEETS_NOTHING = 255 };
-enum { NEXT_IS_PHYSICAL = 0 }; /* otherwise 1 + 2 axis + (side > 0): a cell is left that way */
-
-struct home {
+	uint32_t id;              /* the particle's number in the scene */
+	uint32_t stalls;          /* events since time last moved for it */
 	uint16_t cell[3];
 	uint8_t meets; /* enum touchstone_kind, or MEETS_NOTHING */
 	uint8_t next;
-	uint32_t id;     /* the particle's number in the scene */
-	uint32_t stalls; /* events since time last moved for it */
-	double leaves;   /* its cell, if that comes next: since the page began */
 };
 
 struct moment {
@@ -95,8 +92,7 @@ struct touchstone_engine {
 	uint32_t count;
 	struct body *body;
 	struct place *place;
-	struct appointment *appointment;
-	struct home *home;
+	struct itinerary *itinerary;
 	uint32_t *index_of; /* of a particle's number in the scene */
 
 	/* the scene */
