@@ -243,12 +243,16 @@ bool touchstone_find_steps(const char *arithmetic, const char *method, enum touc
 
 /* ------------------------------------------------------------------ finders written by others */
 
-/* A plug-in is a shared object that exports one or more of these. Each returns the time until the event by the
- * stable rule, or infinity when there is none. Arguments are finite; r and v are relative position and velocity. */
+/* A plug-in is a shared object that exports one or more of these; nothing here defines them. Each returns the time
+ * until the event by the stable rule, or infinity when there is none. Arguments are finite; r and v are relative
+ * position and velocity. A plug-in is asked in a process of its own, one question at a time. */
 typedef double touchstone_ball_ball_finder(const double r[3], const double v[3], double contact_distance);
 typedef double touchstone_ball_leave_finder(const double r[3], const double v[3], double contact_distance);
 typedef double touchstone_ball_plane_finder(double distance, double speed, double acceleration,
 											double contact_distance);
+touchstone_ball_ball_finder touchstone_ball_ball;
+touchstone_ball_leave_finder touchstone_ball_leave;
+touchstone_ball_plane_finder touchstone_ball_plane;
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,84 @@
+/* How well a finder answers, held against the exact answers (design, section 5.7). What can go wrong is counted class
+ * by class, never summed together:
+ *
+ *	missed      there is an event, and none was found (beyond the largest double, infinity is no miss)
+ *	phantom     there is none, and one was found
+ *	negative    the answer is a time before now, whether or not there is an event
+ *	nan         the answer is not a number
+ *	undefined   the question holds an infinity or a NaN: nothing is said of the answer, and the oracle is not asked
+ *
+ * The others are right: `rightly never`, or `found`, and these have an error in ulp, |got - exact| / ulp(exact) with
+ * the ulp of binary64 (whatever arithmetic the finder works in), at least 2^-1074; and they leave a gap, the distance
+ * that the bodies are from contact at the time found, in the question's own unit of length. Only a time later than now
+ * at which the bodies truly touch has a gap: not an overlap that is ended now, and not the turning point of a pair that
+ * is nowhere in contact. */
+#ifndef VERIFY_FINDER_GRADE_H
+#define VERIFY_FINDER_GRADE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "oracle/oracle.h"
+#include "touchstone.h"
+
+enum finder_class {
+	FINDER_FOUND,
+	FINDER_RIGHTLY_NEVER,
+	FINDER_MISSED,
+	FINDER_PHANTOM,
+	FINDER_NEGATIVE,
+	FINDER_NAN,
+	FINDER_UNDEFINED,
+};
+enum { FINDER_CLASSES = 7 };
+
+/* A word for a class: "missed". */
+const char *finder_class_name(enum finder_class class);
+
+/* A question to remember a class by. */
+struct finder_example {
+	bool there;
+	uint64_t question; /* its number */
+	double number[TOUCHSTONE_MOST_NUMBERS], answer;
+};
+
+/* Numbers that are only sorted in the end. */
+struct finder_values {
+	double *value;
+	size_t count, room;
+};
+
+struct finder_grade {
+	enum touchstone_shape shape;
+	uint64_t count[FINDER_CLASSES];
+	struct finder_example example[FINDER_CLASSES]; /* the first of its class; of those found the worst, if not exact */
+	double worst_ulp;                              /* of that one */
+	uint64_t pairs, misordered;                    /* pairs of questions; those whose answers are in the wrong order */
+	struct finder_values ulp, gap;                 /* of each event found; of each contact, without its sign */
+};
+
+/* An empty grade, to be freed by finder_grade_free. */
+struct finder_grade finder_grade_new(enum touchstone_shape shape);
+void finder_grade_free(struct finder_grade *grade);
+
+/* Adds the answers to questions number first .. first + count - 1. In `paired` questions 2k and 2k + 1 belong together,
+ * and their order in time, a tie included, is held against the answers' order. False when out of memory. */
+bool finder_grade_add(struct finder_grade *grade, struct oracle *oracle, uint64_t first,
+					  const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], const double *answers, size_t count,
+					  bool paired);
+
+/* Adds what another grade holds. The order in which parts are added does not matter. False when out of memory. */
+bool finder_grade_merge(struct finder_grade *grade, const struct finder_grade *part);
+
+/* All questions but the undefined. */
+uint64_t finder_grade_cases(const struct finder_grade *grade);
+
+/* The smallest of the values that at least this share of them does not exceed (exact, by nearest rank): 0.5 for the
+ * median, 1 for the maximum. NaN when there are none. Moves the values about. */
+double finder_quantile(struct finder_values *values, double share);
+
+/* A question as the oracle takes it. */
+struct oracle_query finder_question(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS]);
+
+#endif
