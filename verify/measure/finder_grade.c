@@ -102,10 +102,16 @@ struct finder_grade finder_grade_new(enum touchstone_shape shape)
 	return (struct finder_grade){.shape = shape};
 }
 
-void finder_grade_free(struct finder_grade *grade)
+void finder_grade_forget(struct finder_grade *grade)
 {
 	free(grade->ulp.value);
 	free(grade->gap.value);
+	grade->ulp = grade->gap = (struct finder_values){0};
+}
+
+void finder_grade_free(struct finder_grade *grade)
+{
+	finder_grade_forget(grade);
 	*grade = finder_grade_new(grade->shape);
 }
 

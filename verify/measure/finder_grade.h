@@ -71,6 +71,9 @@ bool finder_grade_add(struct finder_grade *grade, struct oracle *oracle, uint64_
 /* Adds what another grade holds. The order in which parts are added does not matter. False when out of memory. */
 bool finder_grade_merge(struct finder_grade *grade, const struct finder_grade *part);
 
+/* Lets go of the values, once their quantiles are known; the counts stay. */
+void finder_grade_forget(struct finder_grade *grade);
+
 /* All questions but the undefined. */
 uint64_t finder_grade_cases(const struct finder_grade *grade);
 

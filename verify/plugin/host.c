@@ -42,11 +42,19 @@ static double call(const struct finders *finders, enum touchstone_shape shape,
 	return NAN;
 }
 
+/* Plug-ins are made for finite numbers, and asked nothing else. */
+static bool finite(const double number[TOUCHSTONE_MOST_NUMBERS])
+{
+	bool all = true;
+	for (int i = 0; i < TOUCHSTONE_MOST_NUMBERS; i++) all = all && isfinite(number[i]);
+	return all;
+}
+
 static void answer(const struct finders *finders, struct plugin_exchange *exchange, size_t first, size_t count)
 {
 	for (size_t k = first; k < count; k++) {
 		exchange->at = k;
-		exchange->answer[k] = call(finders, exchange->shape, exchange->number[k]);
+		if (finite(exchange->number[k])) exchange->answer[k] = call(finders, exchange->shape, exchange->number[k]);
 	}
 }
 

@@ -44,8 +44,8 @@ bool plugin_answers(const struct plugin *plugin, enum touchstone_shape shape);
 /* The file's name without its folder, with the symbol if one was named. */
 const char *plugin_name(const struct plugin *plugin);
 
-/* Asks `count` finite questions. `times` receives the answers, and NaN where there is none because of a fault, of which
- * `fault` is told. Returns how many questions were dealt with: fewer than `count` when it was given up. */
+/* Asks `count` questions. `times` receives the answers, and NaN where there is none: because the numbers are not finite,
+ * and nothing was asked, or because of a fault, of which `fault` is told. Returns how many questions were dealt with: fewer than `count` when it was given up. */
 size_t plugin_find(struct plugin *plugin, enum touchstone_shape shape, const double (*numbers)[TOUCHSTONE_MOST_NUMBERS],
 				   size_t count, double *times, void (*fault)(void *context, const struct plugin_fault *fault),
 				   void *context);
