@@ -82,7 +82,7 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/object/verify/command/reproduce.o: CPPFLAGS += \
+$(BUILD)/object/verify/command/reproduce.o $(BUILD)/object/verify/command/grade.o: CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
 # Templates and plot scripts are part of the program.

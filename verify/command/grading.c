@@ -276,7 +276,7 @@ static bool grade_set(struct work *work, const struct question_source *source, e
 	return good;
 }
 
-static double total_of(const struct grading_plan *plan)
+double grading_questions(const struct grading_plan *plan)
 {
 	double total = 0;
 	char why[160];
@@ -320,7 +320,7 @@ bool grading_run(const struct grading_plan *plan, struct grading *grading, char 
 	struct work work = {.plan = plan,
 						.grading = grading,
 						.progress = progress_begin("grade", "answers"),
-						.total = total_of(plan),
+						.total = grading_questions(plan),
 						.error = error};
 	double began = progress_clock();
 	bool good = prepare(&work);

@@ -71,6 +71,9 @@ struct grading {
 	bool interrupted;
 };
 
+/* How many questions there are, counted once for each finder that answers their shape. */
+double grading_questions(const struct grading_plan *plan);
+
 /* Asks and grades, in the order of sources, shapes and finders; the numbers (but for times) do not depend on how many
  * threads do it. False with one line in `error`; end with grading_free either way. */
 bool grading_run(const struct grading_plan *plan, struct grading *grading, char error[GRADING_ERROR]);
@@ -85,6 +88,7 @@ bool grading_finding(const struct grading *grading);
 
 /* ---- telling: a table for people, lines of comma-separated values (design, section 7), a result for the report */
 void grading_print(FILE *stream, const struct grading *grading);
+void grading_print_findings(FILE *stream, const struct grading *grading); /* only those; nothing if there are none */
 void grading_csv(FILE *stream, const struct grading *grading);
 struct result *grading_result(const struct grading_plan *plan, const struct grading *grading); /* NULL: no memory */
 

@@ -43,7 +43,7 @@ static double call(const struct finders *finders, enum touchstone_shape shape,
 }
 
 /* Plug-ins are made for finite numbers, and asked nothing else. */
-static bool finite(const double number[TOUCHSTONE_MOST_NUMBERS])
+static bool all_finite(const double number[TOUCHSTONE_MOST_NUMBERS])
 {
 	bool all = true;
 	for (int i = 0; i < TOUCHSTONE_MOST_NUMBERS; i++) all = all && isfinite(number[i]);
@@ -54,7 +54,7 @@ static void answer(const struct finders *finders, struct plugin_exchange *exchan
 {
 	for (size_t k = first; k < count; k++) {
 		exchange->at = k;
-		if (finite(exchange->number[k])) exchange->answer[k] = call(finders, exchange->shape, exchange->number[k]);
+		if (all_finite(exchange->number[k])) exchange->answer[k] = call(finders, exchange->shape, exchange->number[k]);
 	}
 }
 
