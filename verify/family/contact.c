@@ -16,7 +16,7 @@ static void near_touching(struct random_state *random, int side, double number[T
 	int64_t steps = draw_steps(random, 32);
 	if (draw_chance(random, 2)) {
 		struct draw_frame frame = draw_frame(random, 6);
-		int64_t multiple = draw_steps(random, 39); /* times at most 4 * 63^2 < 2^14: below 2^53 */
+		int64_t multiple = draw_whole(random, 39); /* times at most 4 * 63^2 < 2^14: below 2^53 */
 		for (int axis = 0; axis < 3; axis++) r[axis] = (double)(frame.axis[0][axis] * multiple);
 		*contact = (double)(frame.length * multiple);
 		draw_shift(number, 7, -ilogb(*contact));
@@ -63,7 +63,6 @@ static void make_beside_contact(enum touchstone_shape shape, struct random_state
 	case TOUCHSTONE_HALF_SPACE:
 		number[0] = side * fabs(draw_scaled(random, -80, -20));
 		draw_fall(random, &number[1], &number[2]);
-		number[2] = 0;
 		break;
 	}
 }
@@ -87,7 +86,7 @@ static void receding_balls(struct random_state *random, double *r, double *v, do
 {
 	if (draw_chance(random, 2)) {
 		struct draw_frame frame = draw_frame(random, 6);
-		int64_t length = draw_steps(random, 39), speed = draw_steps(random, 38);
+		int64_t length = draw_whole(random, 39), speed = draw_whole(random, 38);
 		int64_t apart = draw_chance(random, 4) ? 0 : draw_steps(random, 20);
 		for (int axis = 0; axis < 3; axis++) {
 			r[axis] = (double)(frame.axis[0][axis] * length);

@@ -19,6 +19,12 @@ int64_t draw_steps(struct random_state *random, unsigned bits)
 	return (int64_t)(first + random_below(random, first));
 }
 
+int64_t draw_whole(struct random_state *random, unsigned bits)
+{
+	if (draw_chance(random, 2)) return draw_steps(random, bits);
+	return (int64_t)(1 + random_below(random, (UINT64_C(1) << bits) - 1));
+}
+
 double draw_sign(struct random_state *random, double x)
 {
 	return random_bits(random) >> 63 ? -x : x;

@@ -15,6 +15,9 @@ bool draw_chance(struct random_state *random, unsigned one_in);
 int draw_between(struct random_state *random, int least, int most);
 int64_t draw_steps(struct random_state *random, unsigned bits);
 
+/* From 1 up, of at most so many bits: half of them uniform, so that most have nearly all bits, the others as above. */
+int64_t draw_whole(struct random_state *random, unsigned bits);
+
 /* x or -x. */
 double draw_sign(struct random_state *random, double x);
 

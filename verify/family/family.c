@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "family/make.h"
+#include "store/query_file.h"
 
 enum {
 	MEET = 1 << TOUCHSTONE_BALL_BALL,
@@ -120,6 +121,7 @@ static void fill_one_by_one(const struct source *source, enum touchstone_shape s
 		struct random_state random = random_seed(seed_of(key, source->family.paired ? index / 2 : index));
 		memset(numbers[i], 0, sizeof numbers[i]);
 		source->make(shape, &random, index, numbers[i]);
+		for (size_t n = shape_numbers(shape); n < TOUCHSTONE_MOST_NUMBERS; n++) numbers[i][n] = 0;
 	}
 }
 

@@ -12,6 +12,7 @@
 enum {
 	PARTICLES = 108,    /* 4 x 3^3: fills the lattice */
 	EQUILIBRATE = 8,    /* elastic collisions per particle, which forget the lattice */
+	COOL = 4,           /* collisions per particle by the gas's own law before it is asked */
 	MOST_EVENTS = 1000, /* of one run; a cooling gas is then begun anew */
 	MOST_RUNS = 64,     /* of one block */
 };
@@ -29,8 +30,10 @@ struct harvest {
 	struct touchstone_engine *engine;
 	struct oracle *oracle; /* knows when shells are crossed */
 	double position[PARTICLES][3], velocity[PARTICLES][3];
-	uint32_t involved[2]; /* in what happened last */
-	int involved_count;   /* 0: nothing has happened */
+	uint32_t involved[2];       /* in what happened last */
+	int involved_count;         /* 0: nothing has happened */
+	bool crossing;              /* the two are crossing their shell, */
+	enum touchstone_shape from; /* on which they were asked this before */
 	double (*numbers)[TOUCHSTONE_MOST_NUMBERS];
 	size_t count;
 };
@@ -46,12 +49,13 @@ static void note_event(void *context, struct touchstone_engine *engine, const st
 	harvest->involved_count = event->kind == TOUCHSTONE_CONTACT ? 2 : 1;
 }
 
-/* Goes on to the next event, or to `time` when that is earlier, and looks where everything is. */
-static void advance(struct harvest *harvest, double time)
+/* Goes on by so many events, but not beyond `time`, and looks where everything is. */
+static void advance(struct harvest *harvest, uint64_t events, double time)
 {
-	const struct touchstone_limits limits = {.events = 1, .time = time};
+	const struct touchstone_limits limits = {.events = events, .time = time};
 	const struct touchstone_observer observer = {note_event, harvest};
 	harvest->involved_count = 0;
+	harvest->crossing = false;
 	touchstone_run(harvest->engine, &limits, &observer);
 	for (uint32_t p = 0; p < PARTICLES; p++)
 		touchstone_state(harvest->engine, p, harvest->position[p], harvest->velocity[p]);
@@ -72,15 +76,20 @@ static bool relative(const struct harvest *harvest, uint32_t first, uint32_t sec
 	return near;
 }
 
+/* Square of the distance less that of the shell. */
+static double beyond_shell(const struct gas *gas, const double r[3])
+{
+	return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] - gas->shell * gas->shell;
+}
+
 /* The shape that a pair and its shell have for each other: inside they can only part, outside only meet. */
 static enum touchstone_shape shell_shape(const struct gas *gas, const double r[3])
 {
-	double square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-	return square < gas->shell * gas->shell ? TOUCHSTONE_BALL_LEAVE : TOUCHSTONE_BALL_BALL;
+	return beyond_shell(gas, r) < 0 ? TOUCHSTONE_BALL_LEAVE : TOUCHSTONE_BALL_BALL;
 }
 
-/* Goes on to where one of the particle's neighbours first crosses the shell around it, unless another event is
- * earlier. The engine has no square wells: nothing happens to the pair there, but it is asked about. */
+/* Goes on to where one of the particle's neighbours first crosses the shell around it, if both are left in peace until
+ * then. The engine has no square wells: nothing happens to the pair there, but it is asked about. */
 static void advance_to_shell(struct harvest *harvest, uint32_t particle)
 {
 	double earliest = INFINITY;
@@ -93,19 +102,31 @@ static void advance_to_shell(struct harvest *harvest, uint32_t particle)
 		double wait = oracle_round(harvest->oracle, &time, MPFR_RNDN);
 		if (wait >= earliest) continue;
 		earliest = wait;
+		harvest->from = (enum touchstone_shape)query.shape;
 		partner = other;
 	}
 	struct touchstone_status status;
 	touchstone_status(harvest->engine, &status);
-	advance(harvest, status.time + earliest);
+	if (partner == particle) return;
+	advance(harvest, UINT64_MAX, status.time + earliest);
 	touchstone_status(harvest->engine, &status);
-	if (harvest->involved_count > 0 || status.verdict != TOUCHSTONE_DONE || partner == particle) return;
 	harvest->involved[0] = particle;
 	harvest->involved[1] = partner;
-	harvest->involved_count = 2;
+	harvest->involved_count = status.verdict == TOUCHSTONE_DONE ? 2 : 0;
+	harvest->crossing = true;
 }
 
 /* ---- the questions */
+
+/* What is asked about a pair in a well. One that is just crossing is taken for what it becomes, on whichever side
+ * rounding has put it, as an engine with logical states does (2016 paper). */
+static enum touchstone_shape shape_to_ask(const struct harvest *harvest, uint32_t first, uint32_t second,
+										  const double r[3])
+{
+	bool crossing = harvest->crossing && first == harvest->involved[0] && second == harvest->involved[1];
+	if (!crossing || fabs(beyond_shell(harvest->gas, r)) > 1e-9) return shell_shape(harvest->gas, r);
+	return harvest->from == TOUCHSTONE_BALL_LEAVE ? TOUCHSTONE_BALL_BALL : TOUCHSTONE_BALL_LEAVE;
+}
 
 static void ask(struct harvest *harvest, const double number[TOUCHSTONE_MOST_NUMBERS])
 {
@@ -120,7 +141,7 @@ static void ask_neighbours(struct harvest *harvest, uint32_t particle, uint32_t 
 		double number[TOUCHSTONE_MOST_NUMBERS];
 		if (other == particle || other == asked_before) continue;
 		if (!relative(harvest, particle, other, number, number + 3)) continue;
-		if (gas->shell > 0 && shell_shape(gas, number) != harvest->shape) continue;
+		if (gas->shell > 0 && shape_to_ask(harvest, particle, other, number) != harvest->shape) continue;
 		number[6] = gas->shell > 0 ? gas->shell : 1;
 		ask(harvest, number);
 	}
@@ -194,10 +215,12 @@ static bool begin(struct harvest *harvest, uint64_t seed, char error[160])
 		scene_free(&harvest->scene);
 		return false;
 	}
-	const struct touchstone_limits limits = {.events = EQUILIBRATE * PARTICLES / 2, .time = INFINITY};
+	struct touchstone_limits limits = {.events = EQUILIBRATE * PARTICLES / 2, .time = INFINITY};
 	touchstone_elastic(harvest->engine, true);
 	touchstone_run(harvest->engine, &limits, NULL);
 	touchstone_elastic(harvest->engine, false);
+	limits.events = COOL * PARTICLES / 2;
+	if (harvest->gas->restitution < 1) touchstone_run(harvest->engine, &limits, NULL);
 	return true;
 }
 
@@ -208,7 +231,7 @@ static void run(struct harvest *harvest)
 		if (to_shell)
 			advance_to_shell(harvest, harvest->involved[0]);
 		else
-			advance(harvest, INFINITY);
+			advance(harvest, 1, INFINITY);
 		if (harvest->involved_count == 0) break; /* the run is over: collapsed, for one */
 		ask_all(harvest);
 	}

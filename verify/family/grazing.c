@@ -14,7 +14,7 @@
 static void exact_tangent(struct random_state *random, double *r, double *v, double *contact)
 {
 	struct draw_frame frame = draw_frame(random, 6);
-	int64_t s = draw_steps(random, 37), t = draw_steps(random, 37), w = draw_steps(random, 39);
+	int64_t s = draw_whole(random, 37), t = draw_whole(random, 37), w = draw_whole(random, 39);
 	for (int axis = 0; axis < 3; axis++) {
 		r[axis] = (double)(s * frame.axis[0][axis] - t * frame.axis[1][axis]);
 		v[axis] = (double)(w * frame.axis[1][axis]);
@@ -42,8 +42,8 @@ static void rounded_tangent(struct random_state *random, double *r, double *v, d
  * ball pushed away touches; one pulled in starts below the plane and its peak is just there. */
 static void exact_turn(struct random_state *random, double *number)
 {
-	int64_t x = draw_steps(random, 26), y = draw_steps(random, 26);
-	int64_t contact = draw_chance(random, 2) ? 0 : draw_steps(random, 51); /* in units of x^2 / 2 too */
+	int64_t x = draw_whole(random, 26), y = draw_whole(random, 26);
+	int64_t contact = draw_chance(random, 2) ? 0 : draw_whole(random, 51); /* in units of x^2 / 2 too */
 	double pull = draw_chance(random, 2) ? 1 : -1;
 	number[0] = pull > 0 ? (double)(2 * contact + x * x) : (double)(2 * contact - x * x);
 	number[1] = -pull * (double)(x * y);

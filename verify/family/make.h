@@ -6,7 +6,8 @@
 #include "family/family.h"
 #include "scene/random.h"
 
-/* Makes the question of one index, `number` filled with zeros before. `random` is the question's own; of a paired
+/* Makes the question of one index; `number` holds zeros before, and what the shape has no use for is zeroed after.
+ * `random` is the question's own; of a paired
  * family questions 2k and 2k + 1 get the same. */
 typedef void family_make(enum touchstone_shape shape, struct random_state *random, uint64_t index,
 						 double number[TOUCHSTONE_MOST_NUMBERS]);

@@ -63,7 +63,7 @@ static struct quadratic fibonacci(struct random_state *random)
 		now = after;
 		after = before + now;
 	}
-	double most = floor(0x1p53 / after), multiple = draw_chance(random, 2) ? 1 : most;
+	double most = floor(0x1p53 / now), multiple = draw_chance(random, 2) ? 1 : most;
 	return (struct quadratic){
 		multiple * now, -2 * multiple * before, multiple * (now - before), multiple, multiple, true};
 }

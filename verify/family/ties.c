@@ -50,7 +50,7 @@ static void whole_pair(struct random_state *random, double *number)
 static void meets_at(struct random_state *random, enum touchstone_shape shape, double time, double *number)
 {
 	struct draw_frame frame = draw_frame(random, 6);
-	int64_t multiple = draw_steps(random, 37);
+	int64_t multiple = draw_whole(random, 37);
 	double normal[3], *v = number + 3;
 	for (int axis = 0; axis < 3; axis++) normal[axis] = (double)(frame.axis[0][axis] * multiple);
 	do {
@@ -67,11 +67,11 @@ static void meets_at(struct random_state *random, enum touchstone_shape shape, d
  * the plane and sinking at the start. */
 static void falls_at(struct random_state *random, double time, double *number)
 {
-	double half_pull = draw_sign(random, (double)draw_steps(random, 34)), speed;
+	double half_pull = draw_sign(random, (double)draw_whole(random, 34)), speed;
 	if (draw_chance(random, 4)) half_pull = 0;
-	double at_contact = -(double)draw_steps(random, 42);
+	double at_contact = -(double)draw_whole(random, 42);
 	speed = at_contact - 2 * half_pull * time;
-	double contact = draw_chance(random, 2) ? 0 : (double)draw_steps(random, 50);
+	double contact = draw_chance(random, 2) ? 0 : (double)draw_whole(random, 50);
 	number[0] = contact - (speed + half_pull * time) * time;
 	number[1] = speed;
 	number[2] = 2 * half_pull;
@@ -93,13 +93,12 @@ static void meet_at_one_time(struct random_state *random, enum touchstone_shape 
 	}
 	falls_at(own, time, number);
 	if (shape == TOUCHSTONE_HALF_SPACE) {
-		number[1] = -(double)draw_steps(own, 45);
+		number[1] = -(double)draw_whole(own, 45);
 		number[0] = -number[1] * time;
 	}
 	draw_shift(number + 1, 1, -exponent);
 	draw_shift(number + 2, 1, -2 * exponent);
 	draw_shift(number, 4, draw_between(own, -100, 40));
-	if (shape == TOUCHSTONE_HALF_SPACE) number[2] = number[3] = 0;
 }
 
 /* Even questions are drawn; odd ones are the pair before, moved or turned, or another pair altogether that meets at the
