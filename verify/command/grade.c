@@ -138,8 +138,8 @@ static int add_methods(struct party *party, const struct wish *wish, const char 
 	for (size_t m = 0; m < wish->methods.count; m++) {
 		const char *method = wish->methods.word[m];
 		bool all = strcmp(method, "all") == 0, any = false;
-		for (size_t n = 0; all && touchstone_method_name(n); n++)
-			any |= add_method(party, wish, touchstone_method_name(n), arithmetic, error);
+		for (size_t n = 0; all && touchstone_finder_name(n); n++)
+			any |= add_method(party, wish, touchstone_finder_name(n), arithmetic, error);
 		if (!all) any = add_method(party, wish, method, arithmetic, error);
 		if (!any) return refuse("grade: %s", error);
 	}
@@ -165,7 +165,7 @@ static int add_plugins(struct party *party, const struct wish *wish, const struc
 static size_t method_count(void)
 {
 	size_t count = 0;
-	while (touchstone_method_name(count)) count++;
+	while (touchstone_finder_name(count)) count++;
 	return count;
 }
 

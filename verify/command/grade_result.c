@@ -70,7 +70,7 @@ static void add_cell(struct result_table table, const struct grade_row *row)
 	char text[400];
 	size_t length = 0;
 	for (int class = FINDER_MISSED; class <= FINDER_NAN; class ++) {
-		char count[80];
+		char count[DISPLAY_ROOM];
 		if (row->grade.count[class] == 0) continue;
 		display_count(count, (json_int_t)row->grade.count[class]);
 		length += (size_t)snprintf(text + length, sizeof text - length, "%s %s; ", count,
@@ -81,10 +81,12 @@ static void add_cell(struct result_table table, const struct grade_row *row)
 								   row->grade.misordered);
 	if (row->faults)
 		length += (size_t)snprintf(text + length, sizeof text - length, "%" PRIu64 " crashed; ", row->faults);
+	char most[DISPLAY_ROOM];
+	display_number(most, row->max_ulp, 2);
 	if (isnan(row->max_ulp))
 		snprintf(text + length, sizeof text - length, length ? "" : "no event");
 	else
-		snprintf(text + length, sizeof text - length, "%.2g ulp", row->max_ulp);
+		snprintf(text + length, sizeof text - length, "%s ulp", most);
 	table_shaded(table, level_of(row), "%s", text);
 }
 
@@ -110,7 +112,9 @@ static void add_glance(struct result *result, const struct part *part)
 		result, title,
 		"Each cell: how many answers were missed, phantom, negative or not a number, and the largest error of the "
 		"others in ulp of binary64. The shade goes by the gravest: no fault and at most 4 ulp; more than 4 ulp; faults "
-		"in fewer than a thousandth of the questions; in fewer than a tenth; in more.",
+		"in fewer than a thousandth of the questions; in fewer than a tenth; in more. Of an event that is now, any "
+		"later "
+		"time is off by an astronomical number of ulp.",
 		(const char *const *)heads);
 	for (const struct question_source *source = plan->sources; source < plan->sources + plan->source_count; source++) {
 		if (!any(part, source, NULL)) continue;
@@ -207,8 +211,11 @@ static void add_summary(struct result *result, const struct grading *grading)
 		"among "
 		"the former say nothing about how often a simulation meets them.");
 	if (grading->interrupted) result_incomplete(result, "interrupted after %" PRIu64 " answers", grading->answered);
-	for (size_t r = 0; r < grading->row_count; r++)
-		if (*grading->rows[r].broken) result_note(result, "%s", grading->rows[r].broken);
+	for (size_t r = 0; r < grading->row_count; r++) {
+		char *broken = grading->rows[r].grade.broken ? grade_row_broken(&grading->rows[r]) : NULL;
+		if (broken) result_note(result, "A claim is not kept: %s.", broken);
+		free(broken);
+	}
 }
 
 static void add_sources(struct result *result, const struct grading_plan *plan)

@@ -154,14 +154,20 @@ static void print_example(FILE *stream, const struct grade_row *row, enum finder
 	free(text);
 }
 
+/* Where a finder is first met. */
+static size_t first_row(const struct grading *grading, const struct finder *finder)
+{
+	size_t first = 0;
+	while (grading->rows[first].finder != finder) first++;
+	return first;
+}
+
 static void print_examples(FILE *stream, const struct grading *grading)
 {
 	fputs("\nInputs to replay: of each finder the largest error, and the first of each other kind\n", stream);
 	for (size_t r = 0; r < grading->row_count; r++) {
 		const struct finder *finder = grading->rows[r].finder;
-		size_t first = 0;
-		while (grading->rows[first].finder != finder) first++;
-		if (first < r) continue;
+		if (first_row(grading, finder) < r) continue;
 		for (int class = 0; class < FINDER_UNDEFINED; class ++) {
 			const struct grade_row *row = class == FINDER_RIGHTLY_NEVER ? NULL : gravest(grading, finder, class);
 			if (row) print_example(stream, row, (enum finder_class) class);
@@ -169,24 +175,72 @@ static void print_examples(FILE *stream, const struct grading *grading)
 	}
 }
 
-void grading_print_findings(FILE *stream, const struct grading *grading)
+char *grade_row_broken(const struct grade_row *row)
 {
-	for (size_t f = 0; f < grading->fault_count; f++) {
-		const struct grade_fault *fault = &grading->faults[f];
-		const struct grade_row *row = &grading->rows[fault->row];
-		char words[120], *text = question_text(row->shape, fault->number);
-		plugin_fault_words(&fault->fault, words);
-		fprintf(stream, "%s %s%s at %s question %zu: %s\n", row->finder->method, words,
-				fault->fault.alone ? "" : ", though not when asked nothing else,", row->source->name,
-				fault->fault.question + 1, text ? text : "");
-		free(text);
+	char words[200], *said = NULL;
+	char *text = question_text(row->shape, row->grade.breach.number);
+	finder_claim_words(&row->claim, words);
+	if (asprintf(&said, "%s %s claims %s; not so %" PRIu64 " times in %s, first with %a for %s", row->finder->method,
+				 row->finder->arithmetic, words, row->grade.broken, row->source->name, row->grade.breach.answer,
+				 text ? text : "") < 0)
+		said = NULL;
+	free(text);
+	return said;
+}
+
+static void print_fault(FILE *stream, const struct grade_row *row, const struct grade_fault *fault)
+{
+	char words[120], *text = question_text(row->shape, fault->number);
+	plugin_fault_words(&fault->fault, words);
+	fprintf(stream, "%s %s%s at question %zu of %s: %s\n", row->finder->method, words,
+			fault->fault.alone ? "" : ", though not when asked nothing else,", fault->fault.question + 1,
+			row->source->name, text ? text : "");
+	free(text);
+}
+
+/* The first few faults of a plug-in in one set of questions. */
+static void print_faults(FILE *stream, const struct grading *grading, size_t r)
+{
+	enum { SHOWN = 3 };
+	const struct grade_row *row = &grading->rows[r];
+	uint64_t shown = 0;
+	for (size_t f = 0; f < grading->fault_count && shown < SHOWN; f++) {
+		if (grading->faults[f].row != r) continue;
+		print_fault(stream, row, &grading->faults[f]);
+		shown++;
 	}
+	if (row->faults > shown)
+		fprintf(stream, "%s: and %" PRIu64 " such in %s\n", row->finder->method, row->faults - shown,
+				row->source->name);
+	if (row->given_up)
+		fprintf(stream, "%s is given up on %s, %s: the other questions were not asked\n", row->finder->method,
+				row->source->name, shape_name(row->shape));
+}
+
+/* Answers of a plug-in that are no times, over all questions. */
+static void print_garbage(FILE *stream, const struct grading *grading, const struct finder *finder)
+{
+	uint64_t garbage = 0, cases = 0;
 	for (size_t r = 0; r < grading->row_count; r++) {
 		const struct grade_row *row = &grading->rows[r];
-		if (row->given_up)
-			fprintf(stream, "%s is given up on %s, %s, after %" PRIu64 " of these\n", row->finder->method,
-					row->source->name, shape_name(row->shape), row->faults);
-		if (*row->broken) fprintf(stream, "%s\n", row->broken);
+		if (row->finder != finder) continue;
+		garbage += row->grade.count[FINDER_NAN] + row->grade.count[FINDER_NEGATIVE] - row->faults;
+		cases += finder_grade_cases(&row->grade);
+	}
+	if (garbage)
+		fprintf(stream, "%s answers %" PRIu64 " of %" PRIu64 " questions with what is no time\n", finder->method,
+				garbage, cases);
+}
+
+void grading_print_findings(FILE *stream, const struct grading *grading)
+{
+	for (size_t r = 0; r < grading->row_count; r++) {
+		const struct grade_row *row = &grading->rows[r];
+		print_faults(stream, grading, r);
+		char *broken = row->grade.broken ? grade_row_broken(row) : NULL;
+		if (broken) fprintf(stream, "%s\n", broken);
+		free(broken);
+		if (row->finder->plugin && first_row(grading, row->finder) == r) print_garbage(stream, grading, row->finder);
 	}
 }
 

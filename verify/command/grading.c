@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command/command.h"
 #include "measure/call_time.h"
 
 enum {
@@ -143,6 +144,7 @@ static bool grade_slice(struct seat *seat, size_t from, size_t count)
 	double *answer = seat->answer + from;
 	bool paired = block->source->family && block->source->family->paired;
 	struct finder_grade part = finder_grade_new(block->shape);
+	part.claim = seat->row->grade.claim;
 	char why[160];
 	bool good = (finder->plugin || touchstone_find(finder->arithmetic, finder->method, block->shape, number, count,
 												   false, answer, why)) &&
@@ -234,6 +236,17 @@ static void finish_row(struct grade_row *row)
 	finder_grade_forget(&row->grade);
 }
 
+/* A claim of a method's file is one that its finder is held to. */
+static void hold_to_claim(struct grade_row *row)
+{
+	const struct finder *finder = row->finder;
+	char why[160];
+	row->claim.bits = arithmetic_bits(finder->arithmetic);
+	if (!finder->plugin &&
+		touchstone_finder_claim(finder->arithmetic, finder->method, row->shape, &row->claim.claim, why))
+		row->grade.claim = &row->claim;
+}
+
 /* Gives every finder that answers the shape in hand a seat and a row. */
 static void take_seats(struct work *work)
 {
@@ -250,6 +263,7 @@ static void take_seats(struct work *work)
 			.grade = finder_grade_new(work->block.shape),
 			.nanoseconds = NAN,
 		};
+		hold_to_claim(row);
 		work->seat[work->seats].work = work;
 		work->seat[work->seats++].row = row;
 	}
@@ -348,7 +362,7 @@ bool grading_finding(const struct grading *grading)
 	for (size_t r = 0; r < grading->row_count; r++) {
 		const struct grade_row *row = &grading->rows[r];
 		bool garbage = row->finder->plugin && (row->grade.count[FINDER_NAN] || row->grade.count[FINDER_NEGATIVE]);
-		finding |= row->faults || *row->broken || garbage;
+		finding |= row->faults || row->grade.broken || garbage;
 	}
 	return finding;
 }

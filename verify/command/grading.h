@@ -51,7 +51,7 @@ struct grade_row {
 	double nanoseconds;                   /* per call; NaN: it could not be measured */
 	uint64_t faults;                      /* of a plug-in; its answers there count as nan */
 	bool given_up;                        /* a plug-in, before all questions were asked */
-	char broken[160];                     /* what it claims and does not keep, or "" */
+	struct finder_claim claim;            /* what its file claims, when the grade is held to it */
 };
 
 /* Something a plug-in did instead of answering. */
@@ -91,6 +91,9 @@ void grading_print(FILE *stream, const struct grading *grading);
 void grading_print_findings(FILE *stream, const struct grading *grading); /* only those; nothing if there are none */
 void grading_csv(FILE *stream, const struct grading *grading);
 struct result *grading_result(const struct grading_plan *plan, const struct grading *grading); /* NULL: no memory */
+
+/* Which claim a row's finder does not keep, how often, and on which question first; to be freed. */
+char *grade_row_broken(const struct grade_row *row);
 
 /* A question as a line, as query_write writes it; to be freed. NULL when out of memory. */
 char *question_text(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS]);

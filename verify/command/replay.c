@@ -201,7 +201,7 @@ static bool print_methods(const struct replay *replay, const struct wish *wish, 
 static void print_question(const struct query *query)
 {
 	query_write(stdout, query);
-	printf("%s%s\n ", query->comment ? "  # " : "", query->comment ? query->comment : "");
+	printf("\n ");
 	for (size_t i = 0; i < shape_numbers(query->shape); i++) printf(" %.17g", query->number[i]);
 	printf("\n");
 }
@@ -227,7 +227,7 @@ static int replay_one(const struct wish *wish, const struct query *query, struct
 static void choose_names(struct wish *wish)
 {
 	const char *name;
-	for (size_t n = 0; !wish->methods.chosen && (name = touchstone_method_name(n)); n++) add_name(&wish->methods, name);
+	for (size_t n = 0; !wish->methods.chosen && (name = touchstone_finder_name(n)); n++) add_name(&wish->methods, name);
 	for (size_t n = 0; !wish->arithmetics.chosen && (name = touchstone_arithmetic_name(n)); n++) {
 		for (int p = 0; p < 2; p++)
 			if (strcmp(precisions[p].name, name) == 0) name = precisions[p].chosen;

@@ -133,6 +133,9 @@ bool finder_grade_add(struct finder_grade *grade, struct oracle *oracle, uint64_
 			class = classify(oracle, now, answers[k], &ulp);
 		}
 		grade->count[class]++;
+		if (grade->claim && finder_claim_broken(grade->claim, grade->shape, numbers[k], class, ulp) &&
+			grade->broken++ == 0)
+			remember(&grade->breach, first + k, numbers[k], answers[k]);
 		if (class == FINDER_FOUND)
 			add_found(grade, oracle, now, first + k, answers[k], ulp);
 		else if (!grade->example[class].there)
@@ -160,6 +163,9 @@ bool finder_grade_merge(struct finder_grade *grade, const struct finder_grade *p
 		if (other->there && better) grade->example[class] = *other;
 		grade->count[class] += part->count[class];
 	}
+	bool sooner = !grade->breach.there || part->breach.question < grade->breach.question;
+	if (part->breach.there && sooner) grade->breach = part->breach;
+	grade->broken += part->broken;
 	grade->worst_ulp = fmax(grade->worst_ulp, part->worst_ulp);
 	grade->pairs += part->pairs;
 	grade->misordered += part->misordered;

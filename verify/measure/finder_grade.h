@@ -1,17 +1,4 @@
-/* How well a finder answers, held against the exact answers (design, section 5.7). What can go wrong is counted class
- * by class, never summed together:
- *
- *	missed      there is an event, and none was found (beyond the largest double, infinity is no miss)
- *	phantom     there is none, and one was found
- *	negative    the answer is a time before now, whether or not there is an event
- *	nan         the answer is not a number
- *	undefined   the question holds an infinity or a NaN: nothing is said of the answer, and the oracle is not asked
- *
- * The others are right: `rightly never`, or `found`, and these have an error in ulp, |got - exact| / ulp(exact) with
- * the ulp of binary64 (whatever arithmetic the finder works in), at least 2^-1074; and they leave a gap, the distance
- * that the bodies are from contact at the time found, in the question's own unit of length. Only a time later than now
- * at which the bodies truly touch has a gap: not an overlap that is ended now, and not the turning point of a pair that
- * is nowhere in contact. */
+/* How well a finder answers, held against the exact answers (design, section 5.7), class by class. */
 #ifndef VERIFY_FINDER_GRADE_H
 #define VERIFY_FINDER_GRADE_H
 
@@ -19,22 +6,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "measure/finder_claim.h"
 #include "oracle/oracle.h"
 #include "touchstone.h"
-
-enum finder_class {
-	FINDER_FOUND,
-	FINDER_RIGHTLY_NEVER,
-	FINDER_MISSED,
-	FINDER_PHANTOM,
-	FINDER_NEGATIVE,
-	FINDER_NAN,
-	FINDER_UNDEFINED,
-};
-enum { FINDER_CLASSES = 7 };
-
-/* A word for a class: "missed". */
-const char *finder_class_name(enum finder_class class);
 
 /* A question to remember a class by. */
 struct finder_example {
@@ -56,6 +30,9 @@ struct finder_grade {
 	double worst_ulp;                              /* of that one */
 	uint64_t pairs, misordered;                    /* pairs of questions; those whose answers are in the wrong order */
 	struct finder_values ulp, gap;                 /* of each event found; of each contact, without its sign */
+	const struct finder_claim *claim;              /* to be held to; NULL: none. The caller's */
+	uint64_t broken;                               /* answers that break it */
+	struct finder_example breach;                  /* the first of them */
 };
 
 /* An empty grade, to be freed by finder_grade_free. */

@@ -114,7 +114,7 @@ static void planted_faults_are_counted_in_their_class(void **state)
 			assert_int_equal(grade.count[class], expected[class]);
 			const struct finder_example *example = &grade.example[class];
 			if (class == FINDER_FOUND) continue;
-			assert_true(example->there == expected[class] > 0);
+			assert_true(example->there == (expected[class] > 0));
 			if (!example->there) continue;
 			assert_true(example->question == first[class]);
 			assert_memory_equal(example->number, sheet.number[first[class]], sizeof example->number);
@@ -232,6 +232,68 @@ static void broken_ties_and_orders_are_counted(void **state)
 	finder_grade_free(&grade);
 }
 
+/* What is promised is held against each answer it is about, and against no other. */
+static void broken_claims_are_counted(void **state)
+{
+	(void)state;
+	const double head_on[TOUCHSTONE_MOST_NUMBERS] = {3, 0, 0, -1, 0, 0, 1};         /* at 2; D = b^2 / 9 */
+	const double far_off[TOUCHSTONE_MOST_NUMBERS] = {0x1p70, 0, 0, -1, 0, 0, 1};    /* beyond the claim */
+	const double fine[TOUCHSTONE_MOST_NUMBERS] = {3, 0x1.00001p-3, 0, -1, 0, 0, 1}; /* 21 bits are not enough for it */
+	const double near_miss[TOUCHSTONE_MOST_NUMBERS] = {3, 1, 0, -1, 0, 0, 1};       /* D = 0 */
+	const struct touchstone_claim modest = {0x1p-60, 0x1p60, 1, 2, false, false, false, false};
+	const struct touchstone_claim nothing = {0x1p-60, 0x1p60, 0, INFINITY, false, false, false, false};
+	const struct touchstone_claim bold = {0x1p-60, 0x1p60, 0, 2, true, true, true, true};
+	const struct touchstone_claim all_but_close = {0x1p-60, 0x1p60, 40, 2, true, true, true, true};
+	const struct {
+		const struct touchstone_claim *claim;
+		int bits;
+		const double *number;
+		double answer;
+		bool broken;
+	} cases[] = {
+		{&bold, 53, head_on, 2, false},
+		{&bold, 53, head_on, 2 + 0x1p-50, false},
+		{&bold, 53, head_on, 2 + 0x1.8p-50, true},
+		{&bold, 24, head_on, 2 + 0x1.8p-50, false},
+		{&bold, 24, head_on, 2 + 0x1p-21, false},
+		{&bold, 24, head_on, 2 + 0x1.1p-21, true},
+		{&bold, 113, head_on, 2 + 0x1.8p-50, true},
+		{&bold, 53, head_on, INFINITY, true},
+		{&bold, 53, head_on, -1, true},
+		{&bold, 53, head_on, NAN, true},
+		{&nothing, 53, head_on, 7, false},
+		{&nothing, 53, head_on, INFINITY, false},
+		{&nothing, 53, head_on, -1, false},
+		{&nothing, 53, head_on, NAN, false},
+		{&modest, 53, head_on, 7, false}, /* D is no more than half of b^2 */
+		{&all_but_close, 53, head_on, 7, true},
+		{&all_but_close, 53, near_miss, 3, false},
+		{&all_but_close, 53, near_miss, NAN, true},
+		{&bold, 53, near_miss, 3, true},
+		{&bold, 53, near_miss, INFINITY, false},
+		{&bold, 53, far_off, 1, false},
+		{&bold, 53, far_off, NAN, false},
+		{&bold, 53, fine, NAN, true},
+		{&bold, 21, fine, NAN, true},
+		{&bold, 20, fine, NAN, false},
+	};
+	for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+		const struct finder_claim claim = {*cases[c].claim, cases[c].bits};
+		struct finder_grade grade = finder_grade_new(TOUCHSTONE_BALL_BALL);
+		grade.claim = &claim;
+		assert_true(finder_grade_add(&grade, oracle, 41, (void *)cases[c].number, &cases[c].answer, 1, false));
+		if (grade.broken != cases[c].broken || grade.breach.there != cases[c].broken)
+			fail_msg("case %zu: broken %d, not %d", c, (int)grade.broken, (int)cases[c].broken);
+		if (grade.breach.there) assert_int_equal(grade.breach.question, 41);
+		finder_grade_free(&grade);
+	}
+	char words[200];
+	finder_claim_words(&(struct finder_claim){all_but_close, 53}, words);
+	assert_string_equal(words,
+						"at most 2 ulp, no miss, no phantom, nothing negative, no NaN, where |D| > 2^-40 b^2, for "
+						"numbers from 8.67e-19 to 1.15e+18");
+}
+
 static struct finder_grade grade_one(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS],
 									 double answer)
 {
@@ -294,6 +356,7 @@ int main(void)
 		cmocka_unit_test(quantiles_match_sorting),
 		cmocka_unit_test(parts_make_the_whole_in_any_order),
 		cmocka_unit_test(broken_ties_and_orders_are_counted),
+		cmocka_unit_test(broken_claims_are_counted),
 		cmocka_unit_test(gaps_are_those_of_contacts),
 	};
 	seed_inputs();
