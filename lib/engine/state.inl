@@ -64,12 +64,6 @@ struct wall {
 	struct touchstone_restitution restitution;
 };
 
-struct method {
-	const char *name;
-	num (*ball_ball)(struct ball_ball);
-	num (*ball_plane)(struct ball_plane);
-};
-
 struct touchstone_engine {
 	const struct unit *unit; /* unit and bits come first: whoever calls does not know which unit it is */
 	int bits;

@@ -1,0 +1,93 @@
+/* Questions in binary64. Each method has loops of its own, and all loops are compiled once more for machines with AVX2
+ * and a multiply-add; `rounded` works on several pairs of balls at once, since its fast path has no branches. The
+ * answers are the same: a multiply-add is one wherever it is computed, and what is correctly rounded has one value. */
+
+enum { BATCH = 64 };
+
+/* The fast path for all questions of a batch, then the exact one for those that it leaves. */
+static inline __attribute__((always_inline)) void ask_batches(const struct questions *questions, bool part)
+{
+	for (size_t begin = 0; begin < questions->count; begin += BATCH) {
+		const double(*numbers)[TOUCHSTONE_MOST_NUMBERS] = questions->numbers + begin;
+		double time[BATCH];
+		int count = questions->count - begin < BATCH ? (int)(questions->count - begin) : BATCH;
+#pragma omp simd
+		for (int k = 0; k < count; k++) {
+			struct balls balls = read_balls(numbers[k], 0);
+			struct quadratic f;
+			time[k] = fast_balls(&balls, part, &f);
+		}
+		for (int k = 0; k < count; k++) {
+			if (isnan(time[k])) {
+				struct balls balls = read_balls(numbers[k], 0);
+				struct quadratic f;
+				time[k] = rounded_balls_exactly(questions->shape, &balls, &f);
+			}
+			questions->times[begin + k] = time[k];
+		}
+	}
+}
+
+static inline __attribute__((always_inline)) void ask_rounded(const struct questions *questions)
+{
+	if (!questions->chained && questions->shape == TOUCHSTONE_BALL_BALL)
+		ask_batches(questions, false);
+	else if (!questions->chained && questions->shape == TOUCHSTONE_BALL_LEAVE)
+		ask_batches(questions, true);
+	else
+		ask(&methods[ROUNDED], questions);
+}
+
+/* The method is known while compiling in each of these. */
+static inline __attribute__((always_inline)) void ask_any(const struct method *method,
+														  const struct questions *questions)
+{
+	if (method == &methods[STABLE]) ask(&methods[STABLE], questions);
+	if (method == &methods[NAIVE]) ask(&methods[NAIVE], questions);
+	if (method == &methods[GUARDED]) ask(&methods[GUARDED], questions);
+	if (method == &methods[COMPENSATED]) ask(&methods[COMPENSATED], questions);
+	if (method == &methods[NUMERICAL_RECIPES]) ask(&methods[NUMERICAL_RECIPES], questions);
+	if (method == &methods[KAHAN]) ask(&methods[KAHAN], questions);
+	if (method == &methods[STERBENZ]) ask(&methods[STERBENZ], questions);
+	if (method == &methods[TEXTBOOK_EPSILON]) ask(&methods[TEXTBOOK_EPSILON], questions);
+	if (method == &methods[ROUNDED]) ask_rounded(questions);
+}
+
+static void ask_anywhere(const struct method *method, const struct questions *questions)
+{
+	ask_any(method, questions);
+}
+
+#ifdef __x86_64__
+__attribute__((target("arch=x86-64-v3"), flatten)) static void ask_with_fma(const struct method *method,
+																			const struct questions *questions)
+{
+	ask_any(method, questions);
+}
+#endif
+
+static void ask_best(const struct method *method, const struct questions *questions)
+{
+#ifdef __x86_64__
+	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+		ask_with_fma(method, questions);
+		return;
+	}
+#endif
+	ask_anywhere(method, questions);
+}
+
+static size_t exact_count(enum touchstone_shape shape, const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count)
+{
+	size_t exact = 0;
+	for (size_t k = 0; k < count; k++) {
+		struct balls balls = read_balls(numbers[k], 0);
+		struct flight flight = read_flight(numbers[k], 0);
+		struct quadratic f;
+		if (shape == TOUCHSTONE_BALL_PLANE)
+			exact += isnan(fast_plane(&flight, &f));
+		else if (shape != TOUCHSTONE_HALF_SPACE)
+			exact += isnan(fast_balls(&balls, shape == TOUCHSTONE_BALL_LEAVE, &f));
+	}
+	return exact;
+}
