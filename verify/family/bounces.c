@@ -32,13 +32,10 @@ bool harvest_bouncing_ball(enum touchstone_shape shape, uint64_t seed, double (*
 	struct bounces bounces = {.numbers = numbers};
 	struct random_state random = random_seed(seed);
 	while (bounces.count < FAMILY_BLOCK) {
-		struct touchstone_drop drop = {
-			.plate = {random_uniform(&random)},
-			.gravity = gravity,
-			.restitution = draw_chance(&random, 2) ? 0.5 : 0.1 + 0.8 * random_uniform(&random),
-			.order = (unsigned)random_below(&random, TOUCHSTONE_DROP_ORDERS),
-			.most = MOST_BOUNCES,
-		};
+		struct touchstone_drop drop = {.gravity = gravity, .restitution = 0.5, .most = MOST_BOUNCES};
+		drop.plate[0] = random_uniform(&random);
+		drop.order = (unsigned)random_below(&random, TOUCHSTONE_DROP_ORDERS);
+		if (draw_chance(&random, 2)) drop.restitution = 0.1 + 0.8 * random_uniform(&random);
 		struct touchstone_landing landing;
 		if (!touchstone_drop("binary64", "stable", &drop, 1, &landing, note, &bounces, error)) return false;
 		note(&bounces, 0, landing.start[0] - landing.plate[0] - radius, 0); /* the drop itself */

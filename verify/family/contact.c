@@ -42,8 +42,9 @@ static void draw_velocity(struct random_state *random, const double r[3], double
 /* Speed and acceleration: as above; the acceleration toward the plane, away from it, or none. */
 static void draw_fall(struct random_state *random, double *speed, double *acceleration)
 {
-	*speed = fabs(draw_scaled(random, -20, 4)) * (draw_chance(random, 4) ? 1 : -1);
-	*acceleration = draw_chance(random, 4) ? 0 : fabs(draw_scaled(random, -4, 4)) * (draw_chance(random, 3) ? 1 : -1);
+	double parting = draw_chance(random, 4) ? 1 : -1, pushed = draw_chance(random, 3) ? 1 : -1;
+	*speed = parting * fabs(draw_scaled(random, -20, 4));
+	*acceleration = draw_chance(random, 4) ? 0 : pushed * fabs(draw_scaled(random, -4, 4));
 }
 
 static void make_beside_contact(enum touchstone_shape shape, struct random_state *random, int side, double *number)

@@ -1,5 +1,7 @@
 /* How families are made, for the files that make them. Questions are numbers alone; what is drawn depends on nothing
- * but the seed, and uses + - * /, square roots and powers of two only, so that it is the same on every machine. */
+ * but the seed, and uses + - * /, square roots and powers of two only, so that it is the same on every machine. Draws
+ * that make up one number, or the arguments of one call, are statements of their own: their order must not be the
+ * compiler's. */
 #ifndef VERIFY_FAMILY_MAKE_H
 #define VERIFY_FAMILY_MAKE_H
 

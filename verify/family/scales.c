@@ -172,10 +172,11 @@ void make_zeros(enum touchstone_shape shape, struct random_state *random, uint64
 {
 	(void)index;
 	unsigned count = (unsigned)shape_numbers(shape);
+	int speed = draw_between(random, -2, 2), acceleration = draw_between(random, -2, 2);
 	if (count == 7)
 		aimed(random, draw_uniform(random), 0.75, number);
 	else
-		size_plane(random, number, 0, draw_between(random, -2, 2), draw_between(random, -2, 2));
+		size_plane(random, number, 0, speed, acceleration);
 	uint64_t zeros = draw_chance(random, 2) ? UINT64_C(1) << random_below(random, count)
 											: 1 + random_below(random, (UINT64_C(1) << count) - 1);
 	for (unsigned i = 0; i < count; i++)

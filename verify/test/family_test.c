@@ -90,7 +90,7 @@ static void a_seed_means_the_same_on_every_machine(void **state)
 	(void)state;
 	all_digest = UINT64_C(0xcbf29ce484222325);
 	each(add_to_digest);
-	assert_int_equal(all_digest, UINT64_C(0xaee4f846f1174ea7));
+	assert_int_equal(all_digest, UINT64_C(0x88f753534ad407e));
 }
 
 static void families_have_names(void **state)
