@@ -77,8 +77,8 @@ static void add_cell(struct result_table table, const struct grade_row *row)
 								   finder_class_name((enum finder_class) class));
 	}
 	if (row->grade.misordered)
-		length += (size_t)snprintf(text + length, sizeof text - length, "%" PRIu64 " pairs out of order; ",
-								   row->grade.misordered);
+		length +=
+			(size_t)snprintf(text + length, sizeof text - length, "%" PRIu64 " out of order; ", row->grade.misordered);
 	if (row->faults)
 		length += (size_t)snprintf(text + length, sizeof text - length, "%" PRIu64 " crashed; ", row->faults);
 	char most[DISPLAY_ROOM];
@@ -193,16 +193,40 @@ static void add_findings(struct result *result, const struct grading *grading)
 
 /* ---- the whole */
 
-static void add_summary(struct result *result, const struct grading *grading)
+/* The finders that made no fault anywhere and were off by at most 4 ulp, as a sentence. */
+static void add_spotless(struct result *result, const struct grading_plan *plan, const struct grading *grading)
 {
+	char names[400] = "";
+	for (size_t f = 0; f < plan->finder_count; f++) {
+		unsigned worst = 0;
+		bool asked = false;
+		for (size_t r = 0; r < grading->row_count; r++) {
+			if (grading->rows[r].finder != &plan->finders[f]) continue;
+			unsigned level = level_of(&grading->rows[r]);
+			asked = true;
+			if (level > worst) worst = level;
+		}
+		size_t length = strlen(names);
+		if (asked && worst == 0)
+			snprintf(names + length, sizeof names - length, "%s%s %s", length ? ", " : "", plan->finders[f].method,
+					 plan->finders[f].arithmetic);
+	}
+	result_paragraph(result, "Without any fault, and never off by more than 4 ulp: %s.", *names ? names : "none");
+}
+
+static void add_summary(struct result *result, const struct grading_plan *plan, const struct grading *grading)
+{
+	char answers[DISPLAY_ROOM];
 	size_t clean = 0;
 	for (size_t r = 0; r < grading->row_count; r++) clean += level_of(&grading->rows[r]) == 0;
+	display_count(answers, (json_int_t)grading->answered);
 	result_paragraph(
 		result,
 		"Finders of event times, held against the exact answer to each question: integers of any length decide whether "
-		"there is an event, and the time is known to any digit. %" PRIu64 " answers; in %zu of %zu sets of questions a "
-		"finder made no fault and was off by at most 4 ulp.",
-		grading->answered, clean, grading->row_count);
+		"there is an event, and the time is known to any digit. %s answers; in %zu of %zu sets of questions a finder "
+		"made no fault and was off by at most 4 ulp.",
+		answers, clean, grading->row_count);
+	add_spotless(result, plan, grading);
 	result_paragraph(
 		result,
 		"A missed event lets balls fly through each other, a phantom is a collision that never was, a negative time "
@@ -210,7 +234,7 @@ static void add_summary(struct result *result, const struct grading *grading)
 		"apart; so are questions made to be hard and questions harvested from runs of the engine, since the shares "
 		"among "
 		"the former say nothing about how often a simulation meets them.");
-	if (grading->interrupted) result_incomplete(result, "interrupted after %" PRIu64 " answers", grading->answered);
+	if (grading->interrupted) result_incomplete(result, "interrupted after %s answers", answers);
 	for (size_t r = 0; r < grading->row_count; r++) {
 		char *broken = grading->rows[r].grade.broken ? grade_row_broken(&grading->rows[r]) : NULL;
 		if (broken) result_note(result, "A claim is not kept: %s.", broken);
@@ -235,7 +259,7 @@ struct result *grading_result(const struct grading_plan *plan, const struct grad
 {
 	struct result *result = result_new("grade", "How the finders do");
 	if (!result) return NULL;
-	add_summary(result, grading);
+	add_summary(result, plan, grading);
 	for (int detailed = 0; detailed < 2; detailed++) {
 		for (int shape = 0; shape < TOUCHSTONE_SHAPES; shape++)
 			for (int origin = FAMILY_HAND_MADE; origin <= FAMILY_HARVESTED; origin++) {
