@@ -27,6 +27,7 @@ extern const struct unit THIS_UNIT;
 #include "finder/finder.inl"
 
 #include "method/exact_time.h"
+#include "method/rounded_batch.h"
 #include "method/stable.inl"
 
 #include "method/compensated.inl"

@@ -2,29 +2,15 @@
  * and a multiply-add; `rounded` works on several pairs of balls at once, since its fast path has no branches. The
  * answers are the same: a multiply-add is one wherever it is computed, and what is correctly rounded has one value. */
 
-enum { BATCH = 64 };
-
-/* The fast path for all questions of a batch, then the exact one for those that it leaves. */
+/* The fast path for all, then the exact one for those that it left. */
 static inline __attribute__((always_inline)) void ask_batches(const struct questions *questions, bool part)
 {
-	for (size_t begin = 0; begin < questions->count; begin += BATCH) {
-		const double(*numbers)[TOUCHSTONE_MOST_NUMBERS] = questions->numbers + begin;
-		double time[BATCH];
-		int count = questions->count - begin < BATCH ? (int)(questions->count - begin) : BATCH;
-#pragma omp simd
-		for (int k = 0; k < count; k++) {
-			struct balls balls = read_balls(numbers[k], 0);
-			struct quadratic f;
-			time[k] = fast_balls(&balls, part, &f);
-		}
-		for (int k = 0; k < count; k++) {
-			if (isnan(time[k])) {
-				struct balls balls = read_balls(numbers[k], 0);
-				struct quadratic f;
-				time[k] = rounded_balls_exactly(questions->shape, &balls, &f);
-			}
-			questions->times[begin + k] = time[k];
-		}
+	rounded_batch(part, questions->numbers, questions->count, questions->times);
+	for (size_t k = 0; k < questions->count; k++) {
+		if (!isnan(questions->times[k])) continue;
+		struct balls balls = read_balls(questions->numbers[k], 0);
+		struct quadratic f;
+		questions->times[k] = rounded_balls_exactly(questions->shape, &balls, &f);
 	}
 }
 

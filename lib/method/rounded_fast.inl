@@ -35,23 +35,36 @@ struct known {
 	double high, low, error;
 };
 
-static inline struct known known_dot(int n, const double x[], const double y[], double *size)
+/* A sum of products on the way: what it is, what its roundings left out, and the sum of the magnitudes. */
+struct running {
+	double sum, rest, size;
+};
+
+static inline __attribute__((always_inline)) struct running first_product(double x, double y)
 {
-	struct two product = two_product(x[0], y[0]);
-	double sum = product.high, rest = product.low;
-	*size = fabs(sum);
-	for (int i = 1; i < n; i++) {
-		product = two_product(x[i], y[i]);
-		struct two next = two_sum(sum, product.high);
-		sum = next.high;
-		rest += next.low + product.low;
-		*size += fabs(product.high);
-	}
-	struct two result = two_sum(sum, rest);
-	return (struct known){result.high, result.low, 0x1p-101 * *size};
+	struct two product = two_product(x, y);
+	return (struct running){product.high, product.low, fabs(product.high)};
 }
 
-static inline struct known known_discriminant(struct known a, struct known b, struct known c)
+static inline __attribute__((always_inline)) struct running plus_product(struct running before, double x, double y)
+{
+	struct two product = two_product(x, y), sum = two_sum(before.sum, product.high);
+	return (struct running){sum.high, before.rest + (sum.low + product.low), before.size + fabs(product.high)};
+}
+
+static inline __attribute__((always_inline)) struct running running_dot(const double x[3], const double y[3])
+{
+	return plus_product(plus_product(first_product(x[0], y[0]), x[1], y[1]), x[2], y[2]);
+}
+
+static inline __attribute__((always_inline)) struct known total(struct running running)
+{
+	struct two sum = two_sum(running.sum, running.rest);
+	return (struct known){sum.high, sum.low, 0x1p-101 * running.size};
+}
+
+static inline __attribute__((always_inline)) struct known known_discriminant(struct known a, struct known b,
+																			 struct known c)
 {
 	struct two square = two_product(b.high, b.high), product = two_product(a.high, c.high);
 	double square_low = fma(2 * b.high, b.low, square.low);
@@ -64,7 +77,7 @@ static inline struct known known_discriminant(struct known a, struct known b, st
 }
 
 /* |b| + sqrt(discriminant), or |b| where that is surely not positive. */
-static inline struct known known_sum(struct known b, struct known discriminant)
+static inline __attribute__((always_inline)) struct known known_sum(struct known b, struct known discriminant)
 {
 	bool real = discriminant.high > 0;
 	double radicand = real ? discriminant.high : 1, first = sqrt(radicand), half = 0.5 / first;
@@ -76,7 +89,7 @@ static inline struct known known_sum(struct known b, struct known discriminant)
 }
 
 /* The double nearest to x / y, both positive; NaN where that is not known. */
-static inline double known_quotient(struct known x, struct known y)
+static inline __attribute__((always_inline)) double known_quotient(struct known x, struct known y)
 {
 	double reciprocal = 1 / y.high, first = x.high * reciprocal;
 	double residual = fma(-first, y.high, x.high) + fma(-first, y.low, x.low);
@@ -87,29 +100,30 @@ static inline double known_quotient(struct known x, struct known y)
 	return same ? quotient.high : NAN;
 }
 
-static inline bool negative(struct known x)
+static inline __attribute__((always_inline)) bool negative(struct known x)
 {
 	return x.high < -2 * x.error;
 }
 
-static inline bool positive(struct known x)
+static inline __attribute__((always_inline)) bool positive(struct known x)
 {
 	return x.high > 2 * x.error;
 }
 
 /* Not positive, and not negative: an x that is known exactly may be zero. */
-static inline bool at_most_zero(struct known x)
+static inline __attribute__((always_inline)) bool at_most_zero(struct known x)
 {
 	return x.high <= -2 * x.error;
 }
 
-static inline bool at_least_zero(struct known x)
+static inline __attribute__((always_inline)) bool at_least_zero(struct known x)
 {
 	return x.high >= 2 * x.error;
 }
 
 /* The rule of stable_meeting(), and NaN where a sign or a rounding is unsure. */
-static inline double fast_meeting(struct known a, struct known b, struct known c, struct quadratic *f)
+static inline __attribute__((always_inline)) double fast_meeting(struct known a, struct known b, struct known c,
+																 struct quadratic *f)
 {
 	struct known discriminant = known_discriminant(a, b, c);
 	*f = (struct quadratic){a.high, b.high, c.high, discriminant.high};
@@ -122,7 +136,8 @@ static inline double fast_meeting(struct known a, struct known b, struct known c
 }
 
 /* The rule of stable_parting(). */
-static inline double fast_parting(struct known a, struct known b, struct known c, struct quadratic *f)
+static inline __attribute__((always_inline)) double fast_parting(struct known a, struct known b, struct known c,
+																 struct quadratic *f)
 {
 	struct known discriminant = known_discriminant(a, b, c);
 	*f = (struct quadratic){a.high, b.high, c.high, discriminant.high};
@@ -136,28 +151,27 @@ static inline double fast_parting(struct known a, struct known b, struct known c
 	return goes & at_least_zero(c) & positive(a) ? 0 : time;
 }
 
-static inline bool middling(double size)
+static inline __attribute__((always_inline)) bool middling(double size)
 {
 	return (size >= 0x1p-200) & (size <= 0x1p200);
 }
 
-static inline double fast_balls(const struct balls *balls, bool part, struct quadratic *f)
+static inline __attribute__((always_inline)) double fast_balls(const struct balls *balls, bool part,
+															   struct quadratic *f)
 {
-	const double *r = balls->r, contact = balls->contact;
-	double a_size, b_size, c_size;
-	struct known a = known_dot(3, balls->v, balls->v, &a_size), b = known_dot(3, r, balls->v, &b_size);
-	struct known c =
-		known_dot(4, (double[4]){r[0], r[1], r[2], contact}, (double[4]){r[0], r[1], r[2], -contact}, &c_size);
+	struct running vv = running_dot(balls->v, balls->v), rv = running_dot(balls->r, balls->v);
+	struct running rr = plus_product(running_dot(balls->r, balls->r), balls->contact, -balls->contact);
+	struct known a = total(vv), b = total(rv), c = total(rr);
 	double time = part ? fast_parting(a, b, c, f) : fast_meeting(a, b, c, f);
-	return middling(a_size) & middling(b_size) & middling(c_size) ? time : NAN;
+	return middling(vv.size) & middling(rv.size) & middling(rr.size) ? time : NAN;
 }
 
-static inline bool zero_or_near(double x)
+static inline __attribute__((always_inline)) bool zero_or_near(double x)
 {
 	return (x == 0) | ((fabs(x) >= 0x1p-100) & (fabs(x) <= 0x1p100));
 }
 
-static inline double fast_plane(const struct flight *flight, struct quadratic *f)
+static inline __attribute__((always_inline)) double fast_plane(const struct flight *flight, struct quadratic *f)
 {
 	double speed = flight->speed, acceleration = flight->acceleration;
 	struct two gap = two_sum(flight->distance, -flight->contact);

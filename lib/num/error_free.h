@@ -19,7 +19,7 @@ struct two {
 };
 
 /* a + b exactly (algorithm 2, 2Sum). */
-static inline struct two two_sum(double a, double b)
+static inline __attribute__((always_inline)) struct two two_sum(double a, double b)
 {
 	double sum = a + b;
 	double b_part = sum - a;
@@ -28,14 +28,14 @@ static inline struct two two_sum(double a, double b)
 }
 
 /* The same where |a| >= |b| or a is 0 (algorithm 1, Fast2Sum). */
-static inline struct two two_sum_ordered(double a, double b)
+static inline __attribute__((always_inline)) struct two two_sum_ordered(double a, double b)
 {
 	double sum = a + b;
 	return (struct two){sum, b - (sum - a)};
 }
 
 /* a b exactly (algorithm 3, 2Prod). */
-static inline struct two two_product(double a, double b)
+static inline __attribute__((always_inline)) struct two two_product(double a, double b)
 {
 	double product = a * b;
 	return (struct two){product, fma(a, b, -product)};

@@ -192,9 +192,9 @@ static void print_fault(FILE *stream, const struct grade_row *row, const struct 
 {
 	char words[120], *text = question_text(row->shape, fault->number);
 	plugin_fault_words(&fault->fault, words);
-	fprintf(stream, "%s %s%s at question %zu of %s: %s\n", row->finder->method, words,
-			fault->fault.alone ? "" : ", though not when asked nothing else,", fault->fault.question + 1,
-			row->source->name, text ? text : "");
+	fprintf(stream, "%s %s%s at %s %ld of %s: %s\n", row->finder->method, words,
+			fault->fault.alone ? "" : ", though not when asked nothing else,",
+			row->source->family ? "question" : "line", fault->line, row->source->name, text ? text : "");
 	free(text);
 }
 

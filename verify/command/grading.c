@@ -118,9 +118,9 @@ static void add_fault(void *context, const struct plugin_fault *fault)
 	if (!faults) return; /* it has been counted */
 	grading->faults = faults;
 	struct grade_fault *one = &faults[grading->fault_count++];
-	*one = (struct grade_fault){.row = (size_t)(seat->row - grading->rows), .fault = *fault};
+	*one = (struct grade_fault){
+		.row = (size_t)(seat->row - grading->rows), .fault = *fault, .line = block->line[fault->question]};
 	memcpy(one->number, block->number[fault->question], sizeof one->number);
-	one->fault.question += block->first;
 }
 
 /* Returns how many of the questions in hand the plug-in has dealt with. */

@@ -58,6 +58,7 @@ struct grade_row {
 struct grade_fault {
 	size_t row;
 	struct plugin_fault fault;
+	long line; /* in its file, or the question's number from 1 */
 	double number[TOUCHSTONE_MOST_NUMBERS];
 };
 

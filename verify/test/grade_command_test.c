@@ -216,14 +216,14 @@ static void faults_of_a_plugin_are_findings(void **state)
 	static const struct {
 		const char *contact, *finding;
 	} faults[] = {
-		{"101", "faulty.so is ended by SIGSEGV (Segmentation fault) at question 2 of faults: ball-ball 0x1.c2p+8 "},
-		{"102", "faulty.so does not come to an end at question 2 of faults"},
+		{"101", "faulty.so is ended by SIGSEGV (Segmentation fault) at line 2 of faults: ball-ball 0x1.c2p+8 "},
+		{"102", "faulty.so does not come to an end at line 2 of faults"},
 		{"103", "faulty.so answers 1 of 3 questions with what is no time"},
 		{"104", "faulty.so answers 1 of 3 questions with what is no time"},
 		{"106", "faulty.so ends the process with status "},
 		{"107", "faulty.so is ended by SIGUSR1"},
 		{"108", "faulty.so is ended by SIGABRT (Aborted)"},
-		{"111", "faulty.so is ended by SIGABRT (Aborted), though not when asked nothing else, at question 2"},
+		{"111", "faulty.so is ended by SIGABRT (Aborted), though not when asked nothing else, at line 2"},
 	};
 	for (size_t f = 0; f < sizeof faults / sizeof *faults; f++) {
 		char text[200];
