@@ -241,6 +241,7 @@ static void hold_to_claim(struct grade_row *row)
 {
 	const struct finder *finder = row->finder;
 	char why[160];
+	row->claim.arithmetic = finder->arithmetic;
 	row->claim.bits = arithmetic_bits(finder->arithmetic);
 	if (!finder->plugin &&
 		touchstone_finder_claim(finder->arithmetic, finder->method, row->shape, &row->claim.claim, why))

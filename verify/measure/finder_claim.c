@@ -8,12 +8,21 @@
 
 enum { DOUBLE_BITS = 53, WORDS = 200 };
 
-/* Whether a number has no more significant bits than that. */
-static bool holds(int bits, double number)
+/* Whether the arithmetic has the number: asked to take it as the distance of a half-space, it gives it back. */
+static bool holds(const struct finder_claim *claim, double number)
 {
-	int exponent;
-	double significand = bits < DOUBLE_BITS ? ldexp(frexp(number, &exponent), bits) : 0;
-	return significand == floor(significand);
+	const double question[TOUCHSTONE_MOST_NUMBERS] = {number, -1};
+	struct touchstone_steps steps;
+	char why[160];
+	return touchstone_find_steps(claim->arithmetic, "stable", TOUCHSTONE_HALF_SPACE, question, &steps, why) &&
+		   steps.c == number;
+}
+
+/* Whether the arithmetic has all its bits for such a time. Where it has as many as a double, its range is as wide. */
+static bool in_range(const struct finder_claim *claim, double time)
+{
+	if (claim->bits >= DOUBLE_BITS || time == 0) return true;
+	return isfinite(time) && holds(claim, ldexp(1 + ldexp(1, 1 - claim->bits), ilogb(time)));
 }
 
 /* Whether the claim is about such numbers. */
@@ -22,7 +31,7 @@ static bool concerns(const struct finder_claim *claim, const double number[TOUCH
 	for (int i = 0; i < TOUCHSTONE_MOST_NUMBERS; i++) {
 		double size = fabs(number[i]);
 		bool within = size == 0 || (size >= claim->claim.least && size <= claim->claim.most);
-		if (!within || !holds(claim->bits, number[i])) return false;
+		if (!within || !holds(claim, number[i])) return false;
 	}
 	return true;
 }
@@ -46,7 +55,8 @@ static bool well_conditioned(const struct finder_claim *claim, enum touchstone_s
 }
 
 bool finder_claim_broken(const struct finder_claim *claim, enum touchstone_shape shape,
-						 const double number[TOUCHSTONE_MOST_NUMBERS], enum finder_class class, double ulp)
+						 const double number[TOUCHSTONE_MOST_NUMBERS], enum finder_class class, double exact,
+						 double ulp)
 {
 	const struct touchstone_claim *said = &claim->claim;
 	double most_ulp = claim->bits < DOUBLE_BITS ? ldexp(said->most_ulp, DOUBLE_BITS - claim->bits) : said->most_ulp;
@@ -56,11 +66,13 @@ bool finder_claim_broken(const struct finder_claim *claim, enum touchstone_shape
 	case FINDER_NEGATIVE:
 		return said->never_negative && concerns(claim, number);
 	case FINDER_MISSED:
-		return said->never_misses && concerns(claim, number) && well_conditioned(claim, shape, number);
+		return said->never_misses && in_range(claim, exact) && concerns(claim, number) &&
+			   well_conditioned(claim, shape, number);
 	case FINDER_PHANTOM:
 		return said->never_phantom && concerns(claim, number) && well_conditioned(claim, shape, number);
 	case FINDER_FOUND:
-		return ulp > most_ulp && concerns(claim, number) && well_conditioned(claim, shape, number);
+		return ulp > most_ulp && in_range(claim, exact) && concerns(claim, number) &&
+			   well_conditioned(claim, shape, number);
 	case FINDER_RIGHTLY_NEVER:
 	case FINDER_UNDEFINED:
 		break;

@@ -133,7 +133,8 @@ bool finder_grade_add(struct finder_grade *grade, struct oracle *oracle, uint64_
 			class = classify(oracle, now, answers[k], &ulp);
 		}
 		grade->count[class]++;
-		if (grade->claim && finder_claim_broken(grade->claim, grade->shape, numbers[k], class, ulp) &&
+		double exact = grade->claim && asked[k % 2] ? oracle_round(oracle, now, MPFR_RNDN) : NAN;
+		if (grade->claim && finder_claim_broken(grade->claim, grade->shape, numbers[k], class, exact, ulp) &&
 			grade->broken++ == 0)
 			remember(&grade->breach, first + k, numbers[k], answers[k]);
 		if (class == FINDER_FOUND)

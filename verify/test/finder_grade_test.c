@@ -240,45 +240,52 @@ static void broken_claims_are_counted(void **state)
 	const double far_off[TOUCHSTONE_MOST_NUMBERS] = {0x1p70, 0, 0, -1, 0, 0, 1};    /* beyond the claim */
 	const double fine[TOUCHSTONE_MOST_NUMBERS] = {3, 0x1.00001p-3, 0, -1, 0, 0, 1}; /* 21 bits are not enough for it */
 	const double near_miss[TOUCHSTONE_MOST_NUMBERS] = {3, 1, 0, -1, 0, 0, 1};       /* D = 0 */
+	const double long_wait[TOUCHSTONE_MOST_NUMBERS] = {0x1p70, 0, 0, -0x1p-70, 0, 0, 1}; /* 2^140, less 1 in 2^70 */
+	const struct touchstone_claim boundless = {0, INFINITY, 0, 0.5, true, true, true, true};
 	const struct touchstone_claim modest = {0x1p-60, 0x1p60, 1, 2, false, false, false, false};
 	const struct touchstone_claim nothing = {0x1p-60, 0x1p60, 0, INFINITY, false, false, false, false};
 	const struct touchstone_claim bold = {0x1p-60, 0x1p60, 0, 2, true, true, true, true};
 	const struct touchstone_claim all_but_close = {0x1p-60, 0x1p60, 40, 2, true, true, true, true};
 	const struct {
 		const struct touchstone_claim *claim;
+		const char *arithmetic;
 		int bits;
 		const double *number;
 		double answer;
 		bool broken;
 	} cases[] = {
-		{&bold, 53, head_on, 2, false},
-		{&bold, 53, head_on, 2 + 0x1p-50, false},
-		{&bold, 53, head_on, 2 + 0x1.8p-50, true},
-		{&bold, 24, head_on, 2 + 0x1.8p-50, false},
-		{&bold, 24, head_on, 2 + 0x1p-21, false},
-		{&bold, 24, head_on, 2 + 0x1.1p-21, true},
-		{&bold, 113, head_on, 2 + 0x1.8p-50, true},
-		{&bold, 53, head_on, INFINITY, true},
-		{&bold, 53, head_on, -1, true},
-		{&bold, 53, head_on, NAN, true},
-		{&nothing, 53, head_on, 7, false},
-		{&nothing, 53, head_on, INFINITY, false},
-		{&nothing, 53, head_on, -1, false},
-		{&nothing, 53, head_on, NAN, false},
-		{&modest, 53, head_on, 7, false}, /* D is no more than half of b^2 */
-		{&all_but_close, 53, head_on, 7, true},
-		{&all_but_close, 53, near_miss, 3, false},
-		{&all_but_close, 53, near_miss, NAN, true},
-		{&bold, 53, near_miss, 3, true},
-		{&bold, 53, near_miss, INFINITY, false},
-		{&bold, 53, far_off, 1, false},
-		{&bold, 53, far_off, NAN, false},
-		{&bold, 53, fine, NAN, true},
-		{&bold, 21, fine, NAN, true},
-		{&bold, 20, fine, NAN, false},
+		{&bold, "binary64", 53, head_on, 2, false},
+		{&bold, "binary64", 53, head_on, 2 + 0x1p-50, false},
+		{&bold, "binary64", 53, head_on, 2 + 0x1.8p-50, true},
+		{&bold, "binary32", 24, head_on, 2 + 0x1.8p-50, false},
+		{&bold, "binary32", 24, head_on, 2 + 0x1p-21, false},
+		{&bold, "binary32", 24, head_on, 2 + 0x1.1p-21, true},
+		{&bold, "binary128", 113, head_on, 2 + 0x1.8p-50, true},
+		{&bold, "binary64", 53, head_on, INFINITY, true},
+		{&bold, "binary64", 53, head_on, -1, true},
+		{&bold, "binary64", 53, head_on, NAN, true},
+		{&nothing, "binary64", 53, head_on, 7, false},
+		{&nothing, "binary64", 53, head_on, INFINITY, false},
+		{&nothing, "binary64", 53, head_on, -1, false},
+		{&nothing, "binary64", 53, head_on, NAN, false},
+		{&modest, "binary64", 53, head_on, 7, false}, /* D is no more than half of b^2 */
+		{&all_but_close, "binary64", 53, head_on, 7, true},
+		{&all_but_close, "binary64", 53, near_miss, 3, false},
+		{&all_but_close, "binary64", 53, near_miss, NAN, true},
+		{&bold, "binary64", 53, near_miss, 3, true},
+		{&bold, "binary64", 53, near_miss, INFINITY, false},
+		{&boundless, "binary64", 53, long_wait, INFINITY, true},
+		{&boundless, "binary32", 24, long_wait, INFINITY, false}, /* it has no such number */
+		{&boundless, "binary32", 24, long_wait, NAN, true},
+		{&boundless, "binary32", 24, head_on, INFINITY, true},
+		{&bold, "binary64", 53, far_off, 1, false},
+		{&bold, "binary64", 53, far_off, NAN, false},
+		{&bold, "binary64", 53, fine, NAN, true},
+		{&bold, "mpfr:21", 21, fine, NAN, true},
+		{&bold, "mpfr:20", 20, fine, NAN, false},
 	};
 	for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-		const struct finder_claim claim = {*cases[c].claim, cases[c].bits};
+		const struct finder_claim claim = {*cases[c].claim, cases[c].arithmetic, cases[c].bits};
 		struct finder_grade grade = finder_grade_new(TOUCHSTONE_BALL_BALL);
 		grade.claim = &claim;
 		assert_true(finder_grade_add(&grade, oracle, 41, (void *)cases[c].number, &cases[c].answer, 1, false));
@@ -288,7 +295,7 @@ static void broken_claims_are_counted(void **state)
 		finder_grade_free(&grade);
 	}
 	char words[200];
-	finder_claim_words(&(struct finder_claim){all_but_close, 53}, words);
+	finder_claim_words(&(struct finder_claim){all_but_close, "binary64", 53}, words);
 	assert_string_equal(words,
 						"at most 2 ulp, no miss, no phantom, nothing negative, no NaN, where |D| > 2^-40 b^2, for "
 						"numbers from 8.67e-19 to 1.15e+18");
