@@ -77,13 +77,15 @@ static void set_tally(json_t *view, const json_t *claims)
 
 /* ------------------------------------------------------------------ tables and figures */
 
-/* "number", "hex" (a hex float, to be copied whole), "shade" or "" for prose. */
+/* "number", "hex" (hex floats, to be copied whole, perhaps with a word before them), "shade" or "" for prose. */
 static const char *cell_class(const json_t *cell)
 {
 	if (json_is_object(cell)) return "shade";
 	const char *text = json_string_value(cell);
 	if (!text || isinf(schema_double(cell))) return "number";
-	return strncmp(text + (*text == '-'), "0x", 2) == 0 ? "hex" : "";
+	const char *word = strrchr(text, ' ');
+	word = word ? word + 1 : text;
+	return strncmp(word + (*word == '-'), "0x", 2) == 0 ? "hex" : "";
 }
 
 /* What semicolons part goes on lines of its own. */

@@ -65,29 +65,31 @@ static unsigned level_of(const struct grade_row *row)
 	return share < 1e-3 ? 2 : share < 0.1 ? 3 : 4;
 }
 
+static void add_part(FILE *stream, uint64_t count, const char *what)
+{
+	char text[DISPLAY_ROOM];
+	display_count(text, (json_int_t)count);
+	if (count) fprintf(stream, "%s %s; ", text, what);
+}
+
 static void add_cell(struct result_table table, const struct grade_row *row)
 {
-	char text[400];
-	size_t length = 0;
-	for (int class = FINDER_MISSED; class <= FINDER_NAN; class ++) {
-		char count[DISPLAY_ROOM];
-		if (row->grade.count[class] == 0) continue;
-		display_count(count, (json_int_t)row->grade.count[class]);
-		length += (size_t)snprintf(text + length, sizeof text - length, "%s %s; ", count,
-								   finder_class_name((enum finder_class) class));
-	}
-	if (row->grade.misordered)
-		length +=
-			(size_t)snprintf(text + length, sizeof text - length, "%" PRIu64 " out of order; ", row->grade.misordered);
-	if (row->faults)
-		length += (size_t)snprintf(text + length, sizeof text - length, "%" PRIu64 " crashed; ", row->faults);
-	char most[DISPLAY_ROOM];
+	char *text = NULL, most[DISPLAY_ROOM];
+	size_t size;
+	FILE *stream = open_memstream(&text, &size);
+	if (!stream) return;
+	for (int class = FINDER_MISSED; class <= FINDER_NAN; class ++)
+		add_part(stream, row->grade.count[class], finder_class_name((enum finder_class) class));
+	add_part(stream, row->grade.misordered, "out of order");
+	add_part(stream, row->faults, "not answered");
 	display_number(most, row->max_ulp, 2);
-	if (isnan(row->max_ulp))
-		snprintf(text + length, sizeof text - length, length ? "" : "no event");
-	else
-		snprintf(text + length, sizeof text - length, "%s ulp", most);
+	if (!isnan(row->max_ulp))
+		fprintf(stream, "%s ulp", most);
+	else if (ftell(stream) == 0)
+		fputs("no event", stream);
+	fclose(stream);
 	table_shaded(table, level_of(row), "%s", text);
+	free(text);
 }
 
 static char *finder_title(const struct finder *finder)
@@ -164,7 +166,10 @@ static void add_numbers(struct result *result, const struct part *part)
 		const double numbers[] = {row->median_ulp, row->p999_ulp, row->max_ulp,
 								  row->median_gap, row->max_gap,  row->nanoseconds};
 		for (int n = 0; n < 6; n++) table_number(table, numbers[n]);
-		table_text(table, "%s", text ? text : "");
+		if (text)
+			table_text(table, "%s", text);
+		else
+			table_number(table, NAN);
 		free(text);
 	}
 }
