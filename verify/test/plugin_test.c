@@ -85,6 +85,44 @@ static void answers_come_through(void **state)
 	}
 }
 
+static void each_shape_has_its_function(void **state)
+{
+	(void)state;
+	static const double question[1][TOUCHSTONE_MOST_NUMBERS] = {{1, 2, 3, 4, 5, 6, 7}};
+	static const double expected[] = {
+		[TOUCHSTONE_BALL_BALL] = 7654321, [TOUCHSTONE_BALL_LEAVE] = 17654321, [TOUCHSTONE_BALL_PLANE] = 20004321};
+	struct plugin *plugin = open_well(TOUCHSTONE_PLUGINS "/shapes.so");
+	for (int shape = 0; shape <= TOUCHSTONE_BALL_PLANE; shape++) {
+		assert_true(plugin_answers(plugin, (enum touchstone_shape)shape));
+		assert_int_equal(plugin_find(plugin, (enum touchstone_shape)shape, question, 1, answer, keep, NULL), 1);
+		if (answer[0] != expected[shape]) fail_msg("shape %d: %.17g", shape, answer[0]);
+	}
+	assert_false(plugin_answers(plugin, TOUCHSTONE_HALF_SPACE));
+	plugin_close(plugin);
+
+	bool broken;
+	char error[PLUGIN_ERROR];
+	plugin = plugin_open(TOUCHSTONE_PLUGINS "/shapes.so:touchstone_ball_plane", TOUCHSTONE_BALL_PLANE, &patience,
+						 &broken, error);
+	assert_non_null(plugin);
+	assert_true(plugin_answers(plugin, TOUCHSTONE_BALL_PLANE) && !plugin_answers(plugin, TOUCHSTONE_BALL_BALL));
+	plugin_close(plugin);
+}
+
+/* What is not finite is not asked. */
+static void only_finite_questions_are_asked(void **state)
+{
+	(void)state;
+	struct plugin *plugin = open_well(FAULTY);
+	ask_ordinary();
+	number[1][0] = INFINITY;
+	number[3][6] = NAN;
+	assert_int_equal(find(plugin, 6), 6);
+	assert_true(isnan(answer[1]) && isnan(answer[3]));
+	check_ordinary(4, 6);
+	plugin_close(plugin);
+}
+
 /* Each fault at a question of its own, among others that are answered all the same. */
 static void faults_are_told_with_their_question(void **state)
 {
@@ -267,10 +305,16 @@ static void nothing_stays_behind(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(answers_come_through),          cmocka_unit_test(faults_are_told_with_their_question),
-		cmocka_unit_test(strange_answers_are_handed_on), cmocka_unit_test(faults_of_memory_are_told_apart),
-		cmocka_unit_test(patience_has_an_end),           cmocka_unit_test(an_interrupt_is_heeded),
-		cmocka_unit_test(what_is_no_plugin_is_refused),  cmocka_unit_test(nothing_stays_behind),
+		cmocka_unit_test(answers_come_through),
+		cmocka_unit_test(each_shape_has_its_function),
+		cmocka_unit_test(only_finite_questions_are_asked),
+		cmocka_unit_test(faults_are_told_with_their_question),
+		cmocka_unit_test(strange_answers_are_handed_on),
+		cmocka_unit_test(faults_of_memory_are_told_apart),
+		cmocka_unit_test(patience_has_an_end),
+		cmocka_unit_test(an_interrupt_is_heeded),
+		cmocka_unit_test(what_is_no_plugin_is_refused),
+		cmocka_unit_test(nothing_stays_behind),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
