@@ -93,7 +93,7 @@ $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
 $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 
 # gcc makes selections of vectors only where nobody minds floating-point traps; no value depends on it.
-$(BUILD)/object/lib/method/rounded_batch.o: CFLAGS += -fno-trapping-math
+$(BUILD)/object/lib/finder/batch.o: CFLAGS += -fno-trapping-math
 
 $(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"'
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a

@@ -24,10 +24,11 @@ extern const struct unit THIS_UNIT;
 #include "overlap/half_space.inl"
 #include "overlap/roots.inl"
 
+#include "finder/claim.inl"
 #include "finder/finder.inl"
 
+#include "finder/batch.h"
 #include "method/exact_time.h"
-#include "method/rounded_batch.h"
 #include "method/stable.inl"
 
 #include "method/compensated.inl"

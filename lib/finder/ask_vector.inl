@@ -1,27 +1,22 @@
 /* Questions in binary64. Each method has loops of its own, and all loops are compiled once more for machines with AVX2
- * and a multiply-add; `rounded` works on several pairs of balls at once, since its fast path has no branches. The
+ * and a multiply-add; `compensated` and `rounded` work on several pairs of balls at once. The
  * answers are the same: a multiply-add is one wherever it is computed, and what is correctly rounded has one value. */
 
-/* The fast path for all, then the exact one for those that it left. */
-static inline __attribute__((always_inline)) void ask_batches(const struct questions *questions, bool part)
+/* All at once, then those that are left one by one. */
+static inline __attribute__((always_inline)) void ask_batch(batch *at_once, const struct method *method,
+															const struct questions *questions)
 {
-	rounded_batch(part, questions->numbers, questions->count, questions->times);
+	bool balls = questions->shape == TOUCHSTONE_BALL_BALL || questions->shape == TOUCHSTONE_BALL_LEAVE;
+	if (!balls || questions->chained) {
+		ask(method, questions);
+		return;
+	}
+	at_once(questions->shape == TOUCHSTONE_BALL_LEAVE, questions->numbers, questions->count, questions->times);
 	for (size_t k = 0; k < questions->count; k++) {
 		if (!isnan(questions->times[k])) continue;
-		struct balls balls = read_balls(questions->numbers[k], 0);
 		struct quadratic f;
-		questions->times[k] = rounded_balls_exactly(questions->shape, &balls, &f);
+		questions->times[k] = answer(method, questions->shape, questions->numbers[k], 0, &f);
 	}
-}
-
-static inline __attribute__((always_inline)) void ask_rounded(const struct questions *questions)
-{
-	if (!questions->chained && questions->shape == TOUCHSTONE_BALL_BALL)
-		ask_batches(questions, false);
-	else if (!questions->chained && questions->shape == TOUCHSTONE_BALL_LEAVE)
-		ask_batches(questions, true);
-	else
-		ask(&methods[ROUNDED], questions);
 }
 
 /* The method is known while compiling in each of these. */
@@ -31,12 +26,12 @@ static inline __attribute__((always_inline)) void ask_any(const struct method *m
 	if (method == &methods[STABLE]) ask(&methods[STABLE], questions);
 	if (method == &methods[NAIVE]) ask(&methods[NAIVE], questions);
 	if (method == &methods[GUARDED]) ask(&methods[GUARDED], questions);
-	if (method == &methods[COMPENSATED]) ask(&methods[COMPENSATED], questions);
 	if (method == &methods[NUMERICAL_RECIPES]) ask(&methods[NUMERICAL_RECIPES], questions);
 	if (method == &methods[KAHAN]) ask(&methods[KAHAN], questions);
 	if (method == &methods[STERBENZ]) ask(&methods[STERBENZ], questions);
 	if (method == &methods[TEXTBOOK_EPSILON]) ask(&methods[TEXTBOOK_EPSILON], questions);
-	if (method == &methods[ROUNDED]) ask_rounded(questions);
+	if (method == &methods[COMPENSATED]) ask_batch(batch_compensated, &methods[COMPENSATED], questions);
+	if (method == &methods[ROUNDED]) ask_batch(batch_rounded, &methods[ROUNDED], questions);
 }
 
 static void ask_anywhere(const struct method *method, const struct questions *questions)
@@ -73,7 +68,7 @@ static size_t exact_count(enum touchstone_shape shape, const double (*numbers)[T
 		if (shape == TOUCHSTONE_BALL_PLANE)
 			exact += isnan(fast_plane(&flight, &f));
 		else if (shape != TOUCHSTONE_HALF_SPACE)
-			exact += isnan(fast_balls(&balls, shape == TOUCHSTONE_BALL_LEAVE, &f));
+			exact += isnan(fast_balls(shape == TOUCHSTONE_BALL_LEAVE, &balls, &f));
 	}
 	return exact;
 }

@@ -20,20 +20,39 @@ static inline struct pair pair_product(num a, num b)
 	return (struct pair){product, product_rest(a, b, product)};
 }
 
-/* x1 y1 + .. + xn yn, n <= 4. Error at most n^2 u^2 size, which is |x1 y1| + .. + |xn yn|. */
-static inline struct pair pair_dot(int n, const num x[], const num y[], num *size)
+/* x1 y1 + .. + xn yn, n <= 4, as the sum, what its roundings left out, and the sum of the magnitudes. */
+struct sum {
+	num high, rest, size;
+};
+
+static inline struct sum first_term(num x, num y)
 {
-	struct pair product = pair_product(x[0], y[0]);
-	num sum = product.high, rest = product.low;
-	*size = magnitude(sum);
-	for (int i = 1; i < n; i++) {
-		product = pair_product(x[i], y[i]);
-		struct pair next = pair_sum(sum, product.high);
-		sum = next.high;
-		rest = add(rest, add(next.low, product.low));
-		*size = add(*size, magnitude(product.high));
-	}
-	return pair_sum(sum, rest);
+	struct pair product = pair_product(x, y);
+	return (struct sum){product.high, product.low, magnitude(product.high)};
+}
+
+static inline struct sum next_term(struct sum before, num x, num y)
+{
+	struct pair product = pair_product(x, y), sum = pair_sum(before.high, product.high);
+	return (struct sum){sum.high, add(before.rest, add(sum.low, product.low)),
+						add(before.size, magnitude(product.high))};
+}
+
+static inline struct sum sum_dot(const num x[3], const num y[3])
+{
+	return next_term(next_term(first_term(x[0], y[0]), x[1], y[1]), x[2], y[2]);
+}
+
+/* r^2 - contact^2 */
+static inline struct sum sum_c(const struct balls *balls)
+{
+	return next_term(sum_dot(balls->r, balls->r), balls->contact, negated(balls->contact));
+}
+
+/* Error at most n^2 u^2 size. */
+static inline struct pair summed(struct sum sum)
+{
+	return pair_sum(sum.high, sum.rest);
 }
 
 /* The same to a relative error of some 8 u^2 whatever cancels. Each pass of exact sums moves what was rounded off to
@@ -67,23 +86,32 @@ static inline int compensated_bits(void)
 	return num_bits() < 44 ? num_bits() - 4 : 40;
 }
 
-/* To a relative error of 2^(-k/2 - 4) u or better. */
-static inline struct pair careful_dot(int n, const num x[], const num y[])
+/* What a sum of this size must exceed so that nothing more need be done. */
+static inline num enough_of(struct sum sum)
 {
-	num size, enough = from_double(ldexp(1, 8 + compensated_bits() / 2 - num_bits()));
-	struct pair sum = pair_dot(n, x, y, &size);
-	return less(magnitude(sum.high), mul(enough, size)) ? sifted_dot(n, x, y) : sum;
+	return mul(from_double(ldexp(1, 8 + compensated_bits() / 2 - num_bits())), sum.size);
 }
 
-static inline struct pair compensated_b(const struct balls *balls)
+/* Whether so much cancels that the relative error may be above 2^(-k/2 - 4) u. */
+static inline bool cancels(struct pair total, struct sum sum)
 {
-	return careful_dot(3, balls->r, balls->v);
+	return less(magnitude(total.high), enough_of(sum));
+}
+
+static inline struct pair compensated_b(const struct balls *balls, struct sum sum)
+{
+	struct pair total = summed(sum);
+	return cancels(total, sum) ? sifted_dot(3, balls->r, balls->v) : total;
 }
 
 static inline struct pair compensated_c(const struct balls *balls)
 {
+	struct sum sum = sum_c(balls);
+	struct pair total = summed(sum);
 	const num *r = balls->r, contact = balls->contact;
-	return careful_dot(4, (num[]){r[0], r[1], r[2], contact}, (num[]){r[0], r[1], r[2], negated(contact)});
+	return cancels(total, sum)
+			   ? sifted_dot(4, (num[]){r[0], r[1], r[2], contact}, (num[]){r[0], r[1], r[2], negated(contact)})
+			   : total;
 }
 
 /* b^2 - a c, to 13 u^2 (b^2 + |a c|) before it is rounded. */
@@ -99,11 +127,13 @@ static inline num pair_discriminant(struct pair a, struct pair b, struct pair c)
 
 static inline num compensated_ball_ball(const struct balls *balls, struct quadratic *f)
 {
-	num zero = from_double(0), size;
-	struct pair b = compensated_b(balls);
+	struct sum sum = sum_dot(balls->r, balls->v);
+	f->b = sum.high;
+	if (less(enough_of(sum), f->b)) return from_double(INFINITY); /* one pair in two: what is left out is far smaller */
+	struct pair b = compensated_b(balls, sum);
 	f->b = b.high;
-	if (!less(f->b, zero)) return from_double(INFINITY);
-	struct pair a = pair_dot(3, balls->v, balls->v, &size), c = compensated_c(balls);
+	if (!less(f->b, from_double(0))) return from_double(INFINITY);
+	struct pair a = summed(sum_dot(balls->v, balls->v)), c = compensated_c(balls);
 	f->a = a.high;
 	f->c = c.high;
 	f->discriminant = pair_discriminant(a, b, c);
@@ -112,10 +142,20 @@ static inline num compensated_ball_ball(const struct balls *balls, struct quadra
 
 static inline num compensated_ball_leave(const struct balls *balls, struct quadratic *f)
 {
-	num size;
-	struct pair a = pair_dot(3, balls->v, balls->v, &size), b = compensated_b(balls), c = compensated_c(balls);
+	struct pair a = summed(sum_dot(balls->v, balls->v)), b = compensated_b(balls, sum_dot(balls->r, balls->v)),
+				c = compensated_c(balls);
 	*f = (struct quadratic){a.high, b.high, c.high, pair_discriminant(a, b, c)};
 	return stable_parting(f);
+}
+
+/* The same times wherever neither b nor c cancels, NaN elsewhere: for many at once (finder/batch.c). */
+static inline num compensated_directly(bool part, const struct balls *balls, struct quadratic *f)
+{
+	struct sum sum_of_b = sum_dot(balls->r, balls->v), sum_of_c = sum_c(balls);
+	struct pair a = summed(sum_dot(balls->v, balls->v)), b = summed(sum_of_b), c = summed(sum_of_c);
+	*f = (struct quadratic){a.high, b.high, c.high, pair_discriminant(a, b, c)};
+	num time = part ? stable_parting(f) : stable_meeting(f);
+	return cancels(b, sum_of_b) | cancels(c, sum_of_c) ? from_double(NAN) : time;
 }
 
 static inline num compensated_ball_plane(const struct flight *flight, struct quadratic *f)
@@ -130,7 +170,7 @@ static inline num compensated_ball_plane(const struct flight *flight, struct qua
 	return stable_landing(f);
 }
 
-static void compensated_claim(enum touchstone_shape shape, struct touchstone_claim *claim)
+static inline void compensated_claim(enum touchstone_shape shape, struct touchstone_claim *claim)
 {
 	int bits = num_bits();
 	if (shape == TOUCHSTONE_HALF_SPACE) { /* one quotient */

@@ -36,7 +36,7 @@ static inline num guarded_half_space(const struct passage *passage, struct quadr
 	return less(f->c, from_double(0)) ? from_double(INFINITY) : wait;
 }
 
-static void guarded_claim(enum touchstone_shape shape, struct touchstone_claim *claim)
+static inline void guarded_claim(enum touchstone_shape shape, struct touchstone_claim *claim)
 {
 	stable_claim(shape, claim);
 }

@@ -70,7 +70,7 @@ static num rounded_balls_exactly(enum touchstone_shape shape, const struct balls
 static inline num rounded_ball_ball(const struct balls *balls, struct quadratic *f)
 {
 #ifdef NUM_HAS_LANES
-	double fast = fast_balls(balls, false, f);
+	double fast = fast_balls(false, balls, f);
 	if (!isnan(fast)) return fast;
 #endif
 	return rounded_balls_exactly(TOUCHSTONE_BALL_BALL, balls, f);
@@ -79,7 +79,7 @@ static inline num rounded_ball_ball(const struct balls *balls, struct quadratic 
 static inline num rounded_ball_leave(const struct balls *balls, struct quadratic *f)
 {
 #ifdef NUM_HAS_LANES
-	double fast = fast_balls(balls, true, f);
+	double fast = fast_balls(true, balls, f);
 	if (!isnan(fast)) return fast;
 #endif
 	return rounded_balls_exactly(TOUCHSTONE_BALL_LEAVE, balls, f);
@@ -105,7 +105,7 @@ static inline num rounded_half_space(const struct passage *passage, struct quadr
 	return rounded_exactly(TOUCHSTONE_HALF_SPACE, 2, numbers, f);
 }
 
-static void rounded_claim(enum touchstone_shape shape, struct touchstone_claim *claim)
+static inline void rounded_claim(enum touchstone_shape shape, struct touchstone_claim *claim)
 {
 	(void)shape;
 	*claim = (struct touchstone_claim){0, INFINITY, 0, 0.5, true, true, true, true};

@@ -156,7 +156,7 @@ static inline __attribute__((always_inline)) bool middling(double size)
 	return (size >= 0x1p-200) & (size <= 0x1p200);
 }
 
-static inline __attribute__((always_inline)) double fast_balls(const struct balls *balls, bool part,
+static inline __attribute__((always_inline)) double fast_balls(bool part, const struct balls *balls,
 															   struct quadratic *f)
 {
 	struct running vv = running_dot(balls->v, balls->v), rv = running_dot(balls->r, balls->v);

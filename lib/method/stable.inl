@@ -81,7 +81,7 @@ static inline num stable_half_space(const struct passage *passage, struct quadra
 }
 
 /* Every sum and quotient above is of numbers that are not negative. */
-static void stable_claim(enum touchstone_shape shape, struct touchstone_claim *claim)
+static inline void stable_claim(enum touchstone_shape shape, struct touchstone_claim *claim)
 {
 	(void)shape;
 	*claim = (struct touchstone_claim){.most_ulp = INFINITY, .never_negative = true, .never_nan = true};

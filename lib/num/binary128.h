@@ -22,6 +22,11 @@ static inline num root(num a)
 	return sqrtf128(a);
 }
 
+static inline num magnitude(num a)
+{
+	return a < 0 ? -a : a;
+}
+
 /* a b + c, rounded once. */
 static inline num fused(num a, num b, num c)
 {

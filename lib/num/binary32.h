@@ -17,6 +17,11 @@ static inline num root(num a)
 	return sqrtf(a);
 }
 
+static inline num magnitude(num a)
+{
+	return fabsf(a);
+}
+
 /* a b + c, rounded once. */
 static inline num fused(num a, num b, num c)
 {

@@ -17,6 +17,11 @@ static inline num root(num a)
 	return sqrt(a);
 }
 
+static inline num magnitude(num a)
+{
+	return fabs(a);
+}
+
 /* a b + c, rounded once. */
 static inline num fused(num a, num b, num c)
 {

@@ -19,6 +19,11 @@ static inline num root(num a)
 	return sqrtl(a);
 }
 
+static inline num magnitude(num a)
+{
+	return fabsl(a);
+}
+
 /* a b + c, rounded once. */
 static inline num fused(num a, num b, num c)
 {

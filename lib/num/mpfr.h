@@ -136,6 +136,12 @@ static inline num negated(num a)
 	return a;
 }
 
+static inline num magnitude(num a)
+{
+	a.kind = a.kind < 0 ? -a.kind : a.kind;
+	return a;
+}
+
 /* Whether a < b; false when either is not a number. */
 static inline bool less(num a, num b)
 {

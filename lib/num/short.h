@@ -99,6 +99,11 @@ static inline num negated(num a)
 	return -a;
 }
 
+static inline num magnitude(num a)
+{
+	return fabs(a);
+}
+
 /* Whether a < b; false when either is not a number. */
 static inline bool less(num a, num b)
 {

@@ -105,6 +105,11 @@ static inline num root(num a)
 	return num_settled(two_sum_ordered(high, rest / (2 * high)), high);
 }
 
+static inline num magnitude(num a)
+{
+	return a.high < 0 ? negated(a) : a;
+}
+
 /* Whether a < b; false when either is not a number. */
 static inline bool less(num a, num b)
 {

@@ -12,8 +12,3 @@ static inline double double_below(num x)
 	double near = to_double(x);
 	return less(x, from_double(near)) ? nextafter(near, -INFINITY) : near;
 }
-
-static inline num magnitude(num x)
-{
-	return less(x, from_double(0)) ? negated(x) : x;
-}
