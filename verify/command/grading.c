@@ -40,7 +40,7 @@ struct work {
 	struct progress progress;
 	double total; /* answers to be graded */
 	struct block block;
-	struct seat *seat; /* room for all finders; */
+	struct seat *seat; /* room for all finders */
 	size_t seats;      /* those that answer the shape in hand */
 	struct call_time *callee;
 	struct oracle **oracle; /* of each thread */
