@@ -21,6 +21,10 @@ LIBRARY  := $(call objects,$(call sources,lib))
 PARTS    := $(call objects,$(filter-out $(MAIN),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
 
+# Finders by others: the worked example, as C11 and as C++, and some that do everything wrong.
+PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
+	$(BUILD)/plugins/example_cxx.so
+
 .PHONY: all report test check sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -78,7 +82,7 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/object/verify/command/reproduce.o: CPPFLAGS += \
+$(BUILD)/object/verify/command/reproduce.o $(BUILD)/object/verify/command/grade.o: CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
 # Templates and plot scripts are part of the program.
@@ -88,10 +92,24 @@ $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
 # gcc 12 vectorises double -> float -> double in pairs and drops the rounding on the way.
 $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 
-$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
+# gcc makes selections of vectors only where nobody minds floating-point traps; no value depends on it.
+$(BUILD)/object/lib/finder/batch.o: CFLAGS += -fno-trapping-math
+
+$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"'
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
+
+$(TESTS): | $(PLUGINS)
+
+# As a stranger would compile them: against lib/touchstone.h alone.
+$(BUILD)/plugins/%.so: verify/test/plugins/%.c lib/touchstone.h
+	@mkdir -p $(@D)
+	$(call say,plug-in $@) gcc -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
+
+$(BUILD)/plugins/%_cxx.so: verify/test/plugins/%.c lib/touchstone.h
+	@mkdir -p $(@D)
+	$(call say,plug-in $@) g++ -x c++ -std=c++11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
 
 format:
 	clang-format -i $$(git ls-files '*.c' '*.h' '*.inl')

@@ -117,8 +117,46 @@ const char *touchstone_arithmetic_name(size_t number)
 	return number < sizeof names / sizeof *names ? names[number] : NULL;
 }
 
+static const char *const finder_names[] = {"stable",      "naive",    "guarded",
+										   "compensated", "rounded",  "numerical-recipes",
+										   "kahan",       "sterbenz", "textbook-epsilon"};
+enum { FINDERS = sizeof finder_names / sizeof *finder_names, POLICIES = 5 };
+
 const char *touchstone_method_name(size_t number)
 {
-	static const char *const names[] = {"stable", "naive"};
-	return number < sizeof names / sizeof *names ? names[number] : NULL;
+	return number < POLICIES ? finder_names[number] : NULL;
+}
+
+const char *touchstone_finder_name(size_t number)
+{
+	return number < FINDERS ? finder_names[number] : NULL;
+}
+
+bool touchstone_find(const char *arithmetic, const char *method, enum touchstone_shape shape,
+					 const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count, bool chained, double *times,
+					 char error[160])
+{
+	const struct unit *unit = choose(arithmetic, error);
+	return unit && unit->find(method, shape, numbers, count, chained, times, error);
+}
+
+bool touchstone_find_steps(const char *arithmetic, const char *method, enum touchstone_shape shape,
+						   const double numbers[TOUCHSTONE_MOST_NUMBERS], struct touchstone_steps *steps,
+						   char error[160])
+{
+	const struct unit *unit = choose(arithmetic, error);
+	return unit && unit->find_steps(method, shape, numbers, steps, error);
+}
+
+bool touchstone_finder_claim(const char *arithmetic, const char *method, enum touchstone_shape shape,
+							 struct touchstone_claim *claim, char error[160])
+{
+	const struct unit *unit = choose(arithmetic, error);
+	return unit && unit->claim(method, shape, claim, error);
+}
+
+size_t touchstone_exact_count(enum touchstone_shape shape, const double (*numbers)[TOUCHSTONE_MOST_NUMBERS],
+							  size_t count)
+{
+	return unit_binary64.exact_count(shape, numbers, count);
 }

@@ -150,7 +150,7 @@ void touchstone_destroy(struct touchstone_engine *engine);
 
 /* What the names may be, for people: NULL after the last. */
 const char *touchstone_arithmetic_name(size_t number);
-const char *touchstone_method_name(size_t number);
+const char *touchstone_method_name(size_t number); /* those an engine can run by */
 
 /* Runs until a limit is reached or a verdict other than DONE ends the run. `observer` may be NULL and then costs
  * nothing. May be called again to go on. */
@@ -241,14 +241,42 @@ bool touchstone_find_steps(const char *arithmetic, const char *method, enum touc
 						   const double numbers[TOUCHSTONE_MOST_NUMBERS], struct touchstone_steps *steps,
 						   char error[160]);
 
+/* The methods that have finders, for people: NULL after the last. The first of them are those of
+ * touchstone_method_name(), by which an engine can run as well. */
+const char *touchstone_finder_name(size_t number);
+
+/* What the file of a method claims of the times that touchstone_find() returns, so that it can be held to it. All is
+ * about questions whose numbers the arithmetic holds exactly, each zero or of a magnitude from `least` to `most`. */
+struct touchstone_claim {
+	double least, most;
+	int discriminant_bits; /* error, misses and phantoms: only where |b^2 - a c| > 2^-discriminant_bits b^2 (for planes
+							  b^2 - 2 a c; f as in touchstone_steps); 0: everywhere */
+	double most_ulp; /* error of a time that is found and exists, in units in the last place of the exact time: of the
+						arithmetic, or of a double where that is coarser; INFINITY: nothing is claimed */
+	bool never_misses, never_phantom; /* finds an event if and only if there is one */
+	bool never_negative, never_nan;
+};
+
+/* False, with one line in `error`, as touchstone_find() would be, or when the method claims nothing. */
+bool touchstone_finder_claim(const char *arithmetic, const char *method, enum touchstone_shape shape,
+							 struct touchstone_claim *claim, char error[160]);
+
+/* How many of these questions `rounded` in binary64 leaves to its exact path. */
+size_t touchstone_exact_count(enum touchstone_shape shape, const double (*numbers)[TOUCHSTONE_MOST_NUMBERS],
+							  size_t count);
+
 /* ------------------------------------------------------------------ finders written by others */
 
-/* A plug-in is a shared object that exports one or more of these. Each returns the time until the event by the
- * stable rule, or infinity when there is none. Arguments are finite; r and v are relative position and velocity. */
+/* A plug-in is a shared object that exports one or more of these; nothing here defines them. Each returns the time
+ * until the event by the stable rule, or infinity when there is none. Arguments are finite; r and v are relative
+ * position and velocity. A plug-in is asked in a process of its own, one question at a time. */
 typedef double touchstone_ball_ball_finder(const double r[3], const double v[3], double contact_distance);
 typedef double touchstone_ball_leave_finder(const double r[3], const double v[3], double contact_distance);
 typedef double touchstone_ball_plane_finder(double distance, double speed, double acceleration,
 											double contact_distance);
+touchstone_ball_ball_finder touchstone_ball_ball;
+touchstone_ball_leave_finder touchstone_ball_leave;
+touchstone_ball_plane_finder touchstone_ball_plane;
 
 #ifdef __cplusplus
 }

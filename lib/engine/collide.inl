@@ -182,13 +182,13 @@ static void rebound(struct touchstone_engine *engine, uint32_t i, uint32_t numbe
 	bool stalled = stalls(engine, i);
 	struct body *body = &engine->body[i];
 	advance(engine, body, &engine->place[i], engine->now);
-	struct ball_plane over = over_wall(engine, i, wall);
+	struct flight over = over_wall(engine, i, wall);
 	double coefficient = engine->elastic ? 1 : restitution_at(wall->restitution, -to_double(over.speed));
 	num kick = mul(add(from_double(1), from_double(coefficient)), over.speed);
 	if (engine->observer) {
 		uint32_t species = engine->place[i].species;
 		num contact = engine->radius[species];
-		tell(engine, TOUCHSTONE_WALL, i, number, add(over.gap, contact), contact, negated(over.speed),
+		tell(engine, TOUCHSTONE_WALL, i, number, add(over.distance, contact), contact, negated(over.speed),
 			 mul(engine->mass[species], kick));
 	}
 	for (int axis = 0; axis < engine->dimensions; axis++)

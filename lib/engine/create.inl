@@ -1,10 +1,5 @@
 /* From a scene to an engine, and what an engine says of itself. */
 
-static const struct method methods[] = {
-	{"stable", SIEVE_ORDER, stable_ball_ball, stable_ball_plane},
-	{"naive", SIEVE_MISSES, naive_ball_ball, naive_ball_plane},
-};
-
 static bool refuse(char error[160], const char *format, ...)
 {
 	va_list arguments;
@@ -14,11 +9,12 @@ static bool refuse(char error[160], const char *format, ...)
 	return false;
 }
 
-static const struct method *find_method(const char *name, char error[160])
+/* A method that an engine can run by: it has answers for balls and for planes. */
+static const struct method *find_policy(const char *name, char error[160])
 {
-	for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
-		if (strcmp(methods[m].name, name) == 0) return &methods[m];
-	refuse(error, "no method '%.60s'; known are stable and naive", name);
+	const struct method *method = find_method(name, error);
+	if (!method || method->ball_plane) return method;
+	refuse(error, "method '%s' is a finder only: no engine runs by it, since it has no answer for planes", name);
 	return NULL;
 }
 
@@ -208,7 +204,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 											   char error[160])
 {
 	if (!scene_makes_sense(scene, error)) return NULL;
-	const struct method *chosen = find_method(method, error);
+	const struct method *chosen = find_policy(method, error);
 	if (!chosen) return NULL;
 	struct touchstone_engine *engine = calloc(1, sizeof *engine);
 	if (!engine) {

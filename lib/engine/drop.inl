@@ -36,7 +36,9 @@ static struct touchstone_landing drop_one(const struct method *method, const str
 	expand(position, landing.start, TOUCHSTONE_MOST_TERMS);
 	for (int stalled = 0; stalled < ENOUGH && landing.events < drop->most; landing.events++) {
 		num gap = drop_gap(position, plate, contact, drop->order);
-		num wait = method->ball_plane((struct ball_plane){gap, speed, gravity});
+		struct flight flight = {gap, speed, gravity, zero};
+		struct quadratic f;
+		num wait = method->ball_plane(&flight, &f);
 		if (!is_finite(wait) || less(wait, zero)) {
 			landing.verdict = TOUCHSTONE_HALTED;
 			break;
@@ -59,7 +61,7 @@ static struct touchstone_landing drop_one(const struct method *method, const str
 static bool unit_drop(const char *method, const struct touchstone_drop *drop, size_t count,
 					  struct touchstone_landing *landing, touchstone_bounce *bounce, void *context, char error[160])
 {
-	const struct method *chosen = find_method(method, error);
+	const struct method *chosen = find_policy(method, error);
 	if (!chosen) return false;
 	for (size_t i = 0; i < count; i++) landing[i] = drop_one(chosen, &drop[i], bounce, context);
 	return true;

@@ -15,11 +15,33 @@ extern const struct unit THIS_UNIT;
 
 #include "num/vector.inl"
 
-#include "overlap/ball_ball.inl"
-#include "overlap/ball_plane.inl"
+#include "num/sum_rest.inl"
 
-#include "method/naive.inl"
+#include "overlap/quadratic.inl"
+
+#include "overlap/ball_ball.inl"
+#include "overlap/ball_leave.inl"
+#include "overlap/ball_plane.inl"
+#include "overlap/half_space.inl"
+#include "overlap/roots.inl"
+
+#include "finder/claim.inl"
+#include "finder/finder.inl"
+
+#include "finder/batch.h"
+#include "method/exact_time.h"
 #include "method/stable.inl"
+
+#include "method/compensated.inl"
+#include "method/guarded.inl"
+#include "method/kahan.inl"
+#include "method/naive.inl"
+#include "method/numerical_recipes.inl"
+#include "method/rounded.inl"
+#include "method/sterbenz.inl"
+#include "method/textbook_epsilon.inl"
+
+#include "finder/methods.inl"
 
 #include "engine/agenda.inl"
 #include "engine/state.inl"
@@ -37,5 +59,15 @@ extern const struct unit THIS_UNIT;
 #include "engine/create.inl"
 
 #include "engine/drop.inl"
+
+#include "finder/ask.inl"
+
+#ifdef NUM_HAS_LANES
+#include "finder/ask_vector.inl"
+#else
+#include "finder/ask_single.inl"
+#endif
+
+#include "finder/find.inl"
 
 #include "engine/face.inl"

@@ -128,4 +128,8 @@ const struct unit THIS_UNIT = {
 	.separation = engine_separation,
 	.explain = engine_explain,
 	.drop = unit_drop,
+	.find = unit_find,
+	.find_steps = unit_find_steps,
+	.claim = unit_claim,
+	.exact_count = exact_count,
 };

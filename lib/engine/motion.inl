@@ -91,8 +91,8 @@ static inline num contact_distance(const struct touchstone_engine *engine, uint3
 
 /* A particle over a wall, at the particle's last event. Where its centre is in contact is formed first: near it the
  * difference is then exact, and a ball at rest is at rest (the other order lets the rounding of every landing through;
- * the table of orders that `reproduce fig7` prints shows what that does). */
-static struct ball_plane over_wall(const struct touchstone_engine *engine, uint32_t i, const struct wall *wall)
+ * the table of orders that `reproduce fig7` prints shows what that does). The distance is that from contact. */
+static struct flight over_wall(const struct touchstone_engine *engine, uint32_t i, const struct wall *wall)
 {
 	const struct body *body = &engine->body[i];
 	num radius = engine->radius[engine->place[i].species], gap = from_double(0), speed = gap;
@@ -104,5 +104,5 @@ static struct ball_plane over_wall(const struct touchstone_engine *engine, uint3
 		gap = add(gap, mul(wall->normal[axis], offset));
 		speed = add(speed, mul(wall->normal[axis], body->velocity[axis]));
 	}
-	return (struct ball_plane){gap, speed, wall->acceleration};
+	return (struct flight){gap, speed, wall->acceleration, from_double(0)};
 }

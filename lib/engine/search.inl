@@ -65,19 +65,20 @@ static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const u
 						   struct plan *plan)
 {
 	for (size_t k = 0; k < candidates; k++) {
-		num r[3], v[3];
-		const struct body *later = relative_state(engine, i, candidate[k], r, v);
-		struct ball_ball f = {.b = dot(r, v)};
-		if (!less(f.b, from_double(0))) continue; /* a pair that parts does not meet, whatever the method */
-		f = ball_ball(r, v, contact_distance(engine, i, entry_particle(candidate[k])));
-		consider(engine, i, later, engine->method->ball_ball(f), TOUCHSTONE_CONTACT, candidate[k], plan);
+		struct balls balls;
+		struct quadratic f;
+		const struct body *later = relative_state(engine, i, candidate[k], balls.r, balls.v);
+		balls.contact = contact_distance(engine, i, entry_particle(candidate[k]));
+		consider(engine, i, later, engine->method->ball_ball(&balls, &f), TOUCHSTONE_CONTACT, candidate[k], plan);
 	}
 }
 
 static void consider_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
 {
 	for (size_t w = 0; w < engine->wall_count; w++) {
-		num wait = engine->method->ball_plane(over_wall(engine, i, &engine->wall[w]));
+		struct flight flight = over_wall(engine, i, &engine->wall[w]);
+		struct quadratic f;
+		num wait = engine->method->ball_plane(&flight, &f);
 		consider(engine, i, &engine->body[i], wait, TOUCHSTONE_WALL, (uint32_t)w, plan);
 	}
 }

@@ -58,20 +58,6 @@ struct wall {
 	struct touchstone_restitution restitution;
 };
 
-/* What the sieve (engine/sieve.h) may leave out under a method, without changing what the method finds. */
-enum sieving {
-	SIEVE_NOTHING,
-	SIEVE_MISSES, /* pairs that surely do not meet; the times it finds may be far off */
-	SIEVE_ORDER,  /* and those that surely meet later than another pair */
-};
-
-struct method {
-	const char *name;
-	enum sieving sieve;
-	num (*ball_ball)(struct ball_ball);
-	num (*ball_plane)(struct ball_plane);
-};
-
 /* The shadows of all particles, and the scale they are cast in: engine/shadow.inl. */
 struct shadows {
 	struct shadow *shadow; /* NULL: the sieve is not used */

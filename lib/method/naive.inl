@@ -4,24 +4,36 @@
  * overlaps and approaches gives a negative time; a ball that cannot leave the plate gives no number at all. Both
  * halt a run by this method: there is no answer to go on with. */
 
-static num naive_ball_ball(struct ball_ball f)
+static inline num naive_ball_ball(const struct balls *balls, struct quadratic *f)
 {
 	num zero = from_double(0), never = from_double(INFINITY);
-	if (!less(f.b, zero)) return never;
-	num discriminant = sub(mul(f.b, f.b), mul(f.a, f.c));
-	if (less(discriminant, zero)) return never;
-	return divide(sub(negated(f.b), root(discriminant)), f.a);
+	if (!approaching(balls, f)) return never;
+	complete_ball_ball(balls, f);
+	f->discriminant = sub(mul(f->b, f->b), mul(f->a, f->c));
+	if (less(f->discriminant, zero)) return never;
+	return divide(sub(negated(f->b), root(f->discriminant)), f->a);
 }
 
-static num naive_ball_plane(struct ball_plane f)
+static inline num naive_ball_leave(const struct balls *balls, struct quadratic *f)
+{
+	ball_leave(balls, f);
+	f->discriminant = sub(mul(f->b, f->b), mul(f->a, f->c));
+	if (less(f->discriminant, from_double(0))) return from_double(INFINITY);
+	return divide(sub(root(f->discriminant), f->b), f->a);
+}
+
+static inline num naive_ball_plane(const struct flight *flight, struct quadratic *f)
 {
 	num zero = from_double(0), two = from_double(2), never = from_double(INFINITY);
-	if (!less(f.acceleration, zero) && !less(zero, f.acceleration))
-		return less(f.speed, zero) ? divide(f.gap, negated(f.speed)) : never;
-	num discriminant = sub(mul(f.speed, f.speed), mul(mul(two, f.acceleration), f.gap));
-	if (less(zero, f.acceleration)) {
-		if (!less(f.speed, zero) || less(discriminant, zero)) return never;
-		return negated(divide(add(f.speed, root(discriminant)), f.acceleration));
-	}
-	return negated(divide(add(f.speed, root(discriminant)), f.acceleration));
+	ball_plane(flight, f);
+	if (!bent(f)) return less(f->b, zero) ? divide(f->c, negated(f->b)) : never;
+	f->discriminant = sub(mul(f->b, f->b), mul(mul(two, f->a), f->c));
+	if (less(zero, f->a) && (!less(f->b, zero) || less(f->discriminant, zero))) return never;
+	return negated(divide(add(f->b, root(f->discriminant)), f->a));
+}
+
+static inline num naive_half_space(const struct passage *passage, struct quadratic *f)
+{
+	half_space(passage, f);
+	return less(f->b, from_double(0)) ? divide(f->c, negated(f->b)) : from_double(INFINITY);
 }

@@ -24,6 +24,7 @@ typedef struct {
 } num;
 
 static const char num_name[] = "mpfr";
+enum { num_largest_exponent = (1 << 30) - 1 };
 
 /* The working precision of this thread, kept as a processor keeps its rounding mode in a register: results have it,
  * operands may have another. */
@@ -135,6 +136,12 @@ static inline num negated(num a)
 	return a;
 }
 
+static inline num magnitude(num a)
+{
+	a.kind = a.kind < 0 ? -a.kind : a.kind;
+	return a;
+}
+
 /* Whether a < b; false when either is not a number. */
 static inline bool less(num a, num b)
 {
@@ -147,6 +154,69 @@ static inline bool less(num a, num b)
 static inline bool is_finite(num a)
 {
 	return a.kind != MPFR_NAN_KIND && a.kind != MPFR_INF_KIND && a.kind != -MPFR_INF_KIND;
+}
+
+/* a b + c, rounded once. */
+static inline num fused(num a, num b, num c)
+{
+	num result;
+	mpfr_t header, header_a, header_b, header_c;
+	num_expose(header_a, &a);
+	num_expose(header_b, &b);
+	num_expose(header_c, &c);
+	num_expose_result(header, &result);
+	mpfr_fma(header, header_a, header_b, header_c, MPFR_RNDN);
+	num_collect(&result, header);
+	return result;
+}
+
+/* What the rounding of a product left out, exactly. */
+static inline num product_rest(num a, num b, num product)
+{
+	return fused(a, b, negated(product));
+}
+
+/* x = f 2^exponent with 1/2 <= |f| < 1; 0 for zero. */
+static inline long exponent_of(num x)
+{
+	return x.kind == MPFR_REGULAR_KIND || x.kind == -MPFR_REGULAR_KIND ? x.exponent : 0;
+}
+
+/* x 2^exponent. */
+static inline num times_power(num x, long exponent)
+{
+	num result;
+	mpfr_t header, header_x;
+	num_expose(header_x, &x);
+	num_expose_result(header, &result);
+	mpfr_mul_2si(header, header_x, exponent, MPFR_RNDN);
+	num_collect(&result, header);
+	return result;
+}
+
+/* Bits that hold this number. */
+static inline int num_exact_bits(num x)
+{
+	return x.precision;
+}
+
+/* Exactly, into an `exact` of num_exact_bits. */
+static inline void to_mpfr(mpfr_ptr exact, num x)
+{
+	mpfr_t header;
+	num_expose(header, &x);
+	mpfr_set(exact, header, MPFR_RNDN);
+}
+
+/* Rounded to nearest, ties to even. */
+static inline num from_mpfr(mpfr_srcptr x)
+{
+	num result;
+	mpfr_t header;
+	num_expose_result(header, &result);
+	mpfr_set(header, x, MPFR_RNDN);
+	num_collect(&result, header);
+	return result;
 }
 
 #endif

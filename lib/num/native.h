@@ -1,10 +1,11 @@
 /* What the arithmetics that the compiler itself computes in have in common. The including header gives `num`, a
  * floating-point type whose operations round to nearest even into that type and no wider one, and
- * `num_significand_bits`; the square root is its own. */
+ * `num_significand_bits`; the functions of the C library and of MPFR that go by a type's name are its own. */
 #ifndef NUM_NATIVE_H
 #define NUM_NATIVE_H
 
 #include <math.h>
+#include <mpfr.h>
 #include <stdbool.h>
 
 /* Chooses the significand bits of this thread; false, changing nothing, when the arithmetic does not have them.
@@ -17,6 +18,13 @@ static inline bool num_choose(int bits)
 /* Significand bits in force. */
 static inline int num_bits(void)
 {
+	return num_significand_bits;
+}
+
+/* Bits that hold this number. */
+static inline int num_exact_bits(num x)
+{
+	(void)x;
 	return num_significand_bits;
 }
 

@@ -9,6 +9,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <mpfr.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -18,6 +19,7 @@ _Static_assert(FLT_EVAL_METHOD == 0, "double operations must round to double, no
 typedef double num;
 
 static const char num_name[] = "short";
+enum { num_largest_exponent = DBL_MAX_EXP };
 
 /* The working precision of this thread, kept as a processor keeps its rounding mode in a register; 24 bits until it
  * is chosen. It is stored in the form that rounding wants. */
@@ -97,6 +99,11 @@ static inline num negated(num a)
 	return -a;
 }
 
+static inline num magnitude(num a)
+{
+	return fabs(a);
+}
+
 /* Whether a < b; false when either is not a number. */
 static inline bool less(num a, num b)
 {
@@ -106,6 +113,68 @@ static inline bool less(num a, num b)
 static inline bool is_finite(num a)
 {
 	return isfinite(a);
+}
+
+/* a b + c, rounded once, unless a b underflows. The product is a double; the sum is rounded to odd, which keeps what a
+ * second rounding must know of the bits it dropped. */
+static inline num fused(num a, num b, num c)
+{
+	double product = a * b, sum = product + c, c_part = sum - product;
+	double rest = (product - (sum - c_part)) + (c - c_part);
+	uint64_t word;
+	memcpy(&word, &sum, sizeof word);
+	if (rest != 0 && isfinite(sum) && !(word & 1)) sum = nextafter(sum, rest > 0 ? INFINITY : -INFINITY);
+	return num_rounded(sum);
+}
+
+/* What the rounding of a product left out, exactly unless it underflows: a double holds the whole product. */
+static inline num product_rest(num a, num b, num product)
+{
+	return a * b - product;
+}
+
+/* x = f 2^exponent with 1/2 <= |f| < 1; 0 for zero. */
+static inline long exponent_of(num x)
+{
+	int exponent;
+	frexp(x, &exponent);
+	return exponent;
+}
+
+/* x 2^exponent. */
+static inline num times_power(num x, long exponent)
+{
+	return num_rounded(scalbn(x, (int)exponent));
+}
+
+/* Bits that hold this number. */
+static inline int num_exact_bits(num x)
+{
+	(void)x;
+	return DBL_MANT_DIG;
+}
+
+/* Exactly, into an `exact` of num_exact_bits. */
+static inline void to_mpfr(mpfr_ptr exact, num x)
+{
+	mpfr_set_d(exact, x, MPFR_RNDN);
+}
+
+/* Rounded to nearest, ties to even, once: to subnormal numbers and infinity as well. */
+static inline num from_mpfr(mpfr_srcptr x)
+{
+	if (!mpfr_regular_p(x)) return mpfr_get_d(x, MPFR_RNDN);
+	long below = DBL_MIN_EXP - mpfr_get_exp(x), bits = num_bits() - (below > 0 ? below : 0);
+	if (bits < 0) return mpfr_signbit(x) ? -0.0 : 0.0;
+	mpfr_t kept;
+	mpfr_init2(kept, bits > 0 ? bits : 1);
+	if (bits > 0)
+		mpfr_set(kept, x, MPFR_RNDN);
+	else /* between a half and the whole of the smallest number */
+		mpfr_set_si_2exp(kept, mpfr_sgn(x) * (mpfr_min_prec(x) > 1), mpfr_get_exp(x), MPFR_RNDN);
+	double result = mpfr_get_d(kept, MPFR_RNDN);
+	mpfr_clear(kept);
+	return result;
 }
 
 #endif

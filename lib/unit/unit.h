@@ -22,6 +22,12 @@ struct unit {
 	void (*explain)(const struct touchstone_engine *, void (*line)(void *, const char *), void *);
 	bool (*drop)(const char *method, const struct touchstone_drop *, size_t, struct touchstone_landing *,
 				 touchstone_bounce *, void *, char error[160]);
+	bool (*find)(const char *method, enum touchstone_shape, const double (*numbers)[TOUCHSTONE_MOST_NUMBERS],
+				 size_t count, bool chained, double *times, char error[160]);
+	bool (*find_steps)(const char *method, enum touchstone_shape, const double numbers[TOUCHSTONE_MOST_NUMBERS],
+					   struct touchstone_steps *, char error[160]);
+	bool (*claim)(const char *method, enum touchstone_shape, struct touchstone_claim *, char error[160]);
+	size_t (*exact_count)(enum touchstone_shape, const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count);
 };
 
 extern const struct unit unit_short, unit_binary32, unit_binary64, unit_extended, unit_twin, unit_binary128, unit_mpfr2,

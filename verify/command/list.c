@@ -33,6 +33,13 @@ enum { ARITHMETICS = sizeof arithmetics / sizeof *arithmetics };
 static const struct figure_entry methods[] = {
 	{"stable", "2014 paper, algorithms 1 and 2: an event when bodies touch or overlap, and approach"},
 	{"naive", "2014 paper, eq. 12 and section 3: textbook roots, whatever the rounding made of them"},
+	{"guarded", "the guards of a simulator: no event when a < 2^-52 or c < 0"},
+	{"compensated", "the stable rule over coefficients formed in twice the precision"},
+	{"rounded", "the correctly rounded time, for all numbers there are"},
+	{"numerical-recipes", "balls only, for grade: roots q / a and c / q, as in the book and in GSL"},
+	{"kahan", "balls only, for grade: the discriminant by two fused multiply-adds"},
+	{"sterbenz", "balls only, for grade: the same, scaled by powers of two"},
+	{"textbook-epsilon", "balls only, for grade: Ericson's, with an epsilon for what hardly moves"},
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -67,7 +74,7 @@ static bool list_methods(const char *folder)
 {
 	(void)folder;
 	const char *name;
-	for (size_t n = 0; (name = touchstone_method_name(n)); n++) {
+	for (size_t n = 0; (name = touchstone_finder_name(n)); n++) {
 		const char *about = "";
 		for (int m = 0; m < METHODS; m++)
 			if (strcmp(methods[m].name, name) == 0) about = methods[m].about;

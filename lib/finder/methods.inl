@@ -1,0 +1,60 @@
+/* The methods of this arithmetic. An engine can run by those that have an answer for balls and for planes; the solvers
+ * of the literature have none for planes. */
+
+/* What the sieve (engine/sieve.h) may leave out under a method, without changing what the method finds. */
+enum sieving {
+	SIEVE_NOTHING,
+	SIEVE_MISSES, /* pairs that surely do not meet; the times it finds may be far off */
+	SIEVE_ORDER,  /* and those that surely meet later than another pair */
+};
+
+struct method {
+	const char *name;
+	enum sieving sieve;
+	ball_finder *ball_ball, *ball_leave;
+	plane_finder *ball_plane;
+	half_space_finder *half_space;
+	claim_maker *claim; /* what the method's file claims; NULL: nothing */
+};
+
+enum {
+	STABLE,
+	NAIVE,
+	GUARDED,
+	COMPENSATED,
+	ROUNDED,
+	NUMERICAL_RECIPES,
+	KAHAN,
+	STERBENZ,
+	TEXTBOOK_EPSILON,
+	METHODS,
+};
+
+static const struct method methods[METHODS] = {
+	[STABLE] = {"stable", SIEVE_ORDER, stable_ball_ball, stable_ball_leave, stable_ball_plane, stable_half_space,
+				stable_claim},
+	[NAIVE] = {"naive", SIEVE_MISSES, naive_ball_ball, naive_ball_leave, naive_ball_plane, naive_half_space, NULL},
+	[GUARDED] = {"guarded", SIEVE_MISSES, guarded_ball_ball, guarded_ball_leave, guarded_ball_plane, guarded_half_space,
+				 guarded_claim},
+	[COMPENSATED] = {"compensated", SIEVE_ORDER, compensated_ball_ball, compensated_ball_leave, compensated_ball_plane,
+					 stable_half_space, compensated_claim},
+	[ROUNDED] = {"rounded", SIEVE_ORDER, rounded_ball_ball, rounded_ball_leave, rounded_ball_plane, rounded_half_space,
+				 rounded_claim},
+	[NUMERICAL_RECIPES] = {.name = "numerical-recipes",
+						   .ball_ball = numerical_recipes_ball_ball,
+						   .ball_leave = numerical_recipes_ball_leave},
+	[KAHAN] = {.name = "kahan", .ball_ball = kahan_ball_ball, .ball_leave = kahan_ball_leave},
+	[STERBENZ] = {.name = "sterbenz", .ball_ball = sterbenz_ball_ball, .ball_leave = sterbenz_ball_leave},
+	[TEXTBOOK_EPSILON] = {.name = "textbook-epsilon", .ball_ball = textbook_epsilon_ball_ball},
+};
+
+static const struct method *find_method(const char *name, char error[160])
+{
+	char known[120] = "";
+	for (int m = 0; m < METHODS; m++) {
+		if (strcmp(methods[m].name, name) == 0) return &methods[m];
+		snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", m ? ", " : "", methods[m].name);
+	}
+	snprintf(error, 160, "no method '%.20s'; known are %s", name, known);
+	return NULL;
+}

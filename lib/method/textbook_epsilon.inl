@@ -1,0 +1,16 @@
+/* textbook-epsilon: two moving balls as a textbook on games has them. Balls that overlap meet now, whichever way they
+ * move; balls with a < epsilon are at rest; else the earlier root, (-b - sqrt(b^2 - a c)) / a.
+ *
+ * Source: Ericson, "Real-Time Collision Detection", 2005, section 5.5.5. The epsilon is Ericson's; he leaves its value
+ * to the reader, and here it is 2^-52, as in `guarded`. */
+
+static inline num textbook_epsilon_ball_ball(const struct balls *balls, struct quadratic *f)
+{
+	num zero = from_double(0), never = from_double(INFINITY);
+	complete_ball_ball(balls, f);
+	if (less(f->c, zero)) return zero;
+	if (less(f->a, from_double(0x1p-52)) || !approaching(balls, f)) return never;
+	f->discriminant = sub(mul(f->b, f->b), mul(f->a, f->c));
+	if (less(f->discriminant, zero)) return never;
+	return divide(sub(negated(f->b), root(f->discriminant)), f->a);
+}
