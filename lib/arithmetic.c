@@ -88,6 +88,27 @@ int touchstone_separation(const struct touchstone_engine *engine, double terms[3
 	return unit_of(engine)->separation(engine, terms, contact);
 }
 
+int touchstone_pair_state(const struct touchstone_engine *engine, uint32_t first, uint32_t second)
+{
+	return unit_of(engine)->pair_state(engine, first, second);
+}
+
+size_t touchstone_captured(const struct touchstone_engine *engine, uint32_t particle, struct touchstone_captured *list,
+						   size_t room)
+{
+	return unit_of(engine)->captured(engine, particle, list, room);
+}
+
+int touchstone_side(const struct touchstone_engine *engine, uint32_t particle, size_t wall)
+{
+	return unit_of(engine)->side(engine, particle, wall);
+}
+
+void touchstone_flux(const struct touchstone_engine *engine, size_t wall, struct touchstone_flux flux[2])
+{
+	unit_of(engine)->flux(engine, wall, flux);
+}
+
 void touchstone_explain(const struct touchstone_engine *engine, void (*line)(void *context, const char *text),
 						void *context)
 {

@@ -52,6 +52,29 @@ struct touchstone_wall {
 	struct touchstone_restitution restitution;
 };
 
+/* One step of a pair potential (2016 paper, fig. 1). */
+struct touchstone_step {
+	double distance; /* > 0 */
+	double energy;   /* of a pair that is nearer than this, and not nearer than the next step inwards; finite */
+};
+
+/* What the particles of two species, or of one, are to each other, in place of hard bodies: a square well is one step
+ * of negative energy, a square shoulder one of positive energy. Beyond the last step the energy is 0. */
+struct touchstone_potential {
+	uint32_t species[2];                       /* in any order; each pair of species has at most one potential */
+	double core;                               /* distance at which they collide; 0: they never do */
+	struct touchstone_restitution restitution; /* at the core */
+	size_t step_count;                         /* 0: nothing but the core */
+	const struct touchstone_step *steps;       /* outwards: each distance larger than the one before, and the core */
+};
+
+/* A plane that counts what passes through it and does nothing else (2016 paper, section 4). It stands once in every
+ * image of the box, so that on a periodic axis its normal lies along the axis or across it. */
+struct touchstone_virtual_wall {
+	double point[3];  /* on periodic axes within the box */
+	double normal[3]; /* of length 1 */
+};
+
 enum touchstone_form {
 	TOUCHSTONE_RELATIVE, /* time since the page was turned, position within a place: errors do not grow */
 	TOUCHSTONE_ABSOLUTE, /* one time since the start, one position within the box, as in the papers */
@@ -75,7 +98,11 @@ struct touchstone_scene {
 	double box[3];          /* extent of each axis, from -box/2 to +box/2; on an axis that is not periodic it only
 							   guides the cells */
 	double acceleration[3]; /* the same for all particles */
-	struct touchstone_restitution restitution; /* between particles */
+	struct touchstone_restitution restitution; /* between particles that have no potential */
+	size_t potential_count;
+	const struct touchstone_potential *potentials;
+	size_t virtual_wall_count;
+	const struct touchstone_virtual_wall *virtual_walls;
 	enum touchstone_form form;
 	enum touchstone_search search;
 	double cell;    /* side of a search cell; 0: chosen. Never changes a result */
@@ -88,8 +115,12 @@ struct touchstone_scene {
 struct touchstone_engine; /* made, run and destroyed by one thread at a time */
 
 enum touchstone_kind {
-	TOUCHSTONE_CONTACT, /* two particles collide */
-	TOUCHSTONE_WALL,    /* a particle collides with a wall */
+	TOUCHSTONE_CONTACT,  /* two particles collide: hard bodies, or the cores of a potential */
+	TOUCHSTONE_WALL,     /* a particle collides with a wall */
+	TOUCHSTONE_CAPTURE,  /* two particles pass a step of their potential on their way in */
+	TOUCHSTONE_RELEASE,  /* the same on their way out */
+	TOUCHSTONE_BOUNCE,   /* two particles turn back at a step, from either side: too slow to climb it */
+	TOUCHSTONE_CROSSING, /* a particle passes a virtual wall: told and counted apart, for nothing happens to it */
 };
 
 enum touchstone_verdict {
@@ -103,13 +134,17 @@ enum touchstone_verdict {
 struct touchstone_event {
 	enum touchstone_kind kind;
 	uint32_t first;  /* particle, numbered as in the scene; of two, the smaller number */
-	uint32_t second; /* particle, or wall */
+	uint32_t second; /* particle, or wall, or virtual wall */
 	double time;     /* since the start, rounded to double */
-	double approach; /* speed with which the distance shrinks */
+	double approach; /* speed with which the distance shrinks; negative where it grows */
 	double impulse;  /* magnitude of the momentum handed over */
 	double distance; /* centre to centre, or centre to wall, in the working arithmetic, rounded to double */
 	int64_t steps;   /* how many representable numbers of the working arithmetic that distance lies above the
-						contact distance; negative when below */
+						distance of the event (contact, or the step); negative when below */
+	int before;      /* tracked state until now: of a pair as touchstone_pair_state() has it, of a particle that passes
+						a virtual wall as touchstone_side() does; 0 otherwise */
+	int after;       /* the same from now on */
+	double energy;   /* what the pair gains in potential energy */
 };
 
 /* Called for each physical event, which must not outlive the call. */
@@ -127,16 +162,21 @@ struct touchstone_limits {
 /* What a run has come to. */
 struct touchstone_status {
 	enum touchstone_verdict verdict;
-	char reason[160];      /* one sentence when the verdict is not DONE, with the particles and the time */
-	uint32_t count;        /* particles */
-	int bits;              /* significand bits of the arithmetic */
-	uint64_t events;       /* physical events executed so far */
-	uint64_t collisions;   /* those between two particles */
-	uint64_t lookups;      /* bookkeeping: cells crossed and searches repeated */
-	double time;           /* of the last event (or the limit that was reached) */
-	uint64_t digest;       /* of kind, particles and exact time of every physical event so far */
-	size_t memory;         /* bytes the engine holds */
-	uint32_t particles[2]; /* those a verdict other than DONE is about */
+	char reason[160];    /* one sentence when the verdict is not DONE, with the particles and the time */
+	uint32_t count;      /* particles */
+	int bits;            /* significand bits of the arithmetic */
+	uint64_t events;     /* physical events executed so far */
+	uint64_t collisions; /* those in which two particles collide */
+	uint64_t captures, releases, bounces; /* those at a step of a potential */
+	uint64_t crossings;                   /* of virtual walls: no physical events, and not in the digest */
+	uint64_t captured;                    /* pairs that are within a step now */
+	double potential_energy;              /* of all of them */
+	uint64_t lookups;                     /* bookkeeping: cells crossed and searches repeated */
+	double time;                          /* of the last event (or the limit that was reached) */
+	uint64_t digest;                      /* of kind, particles and exact time of every physical event so far */
+	size_t memory;                        /* bytes the engine holds */
+	size_t state_memory;                  /* those of them that hold tracked states: of pairs, and at virtual walls */
+	uint32_t particles[2];                /* those a verdict other than DONE is about */
 };
 
 /* Doubles that suffice to write any number of any arithmetic as an exact sum. */
@@ -170,11 +210,39 @@ void touchstone_elastic(struct touchstone_engine *engine, bool elastic);
 void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3],
 					  double velocity[3]);
 
-/* During an observer's call: the exact relative position, first minus second particle, of the pair that is in
- * contact. terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact
- * receives the contact distance in the same way, filled with zeros. */
+/* During an observer's call: the exact relative position, first minus second particle, of the pair whose event it is.
+ * terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact receives the
+ * distance of the event (contact, or the step) in the same way, filled with zeros. */
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 						  double contact[TOUCHSTONE_MOST_TERMS]);
+
+/* The tracked state of a pair: how many steps of its potential it is within. 0, the commonest, is not stored. It was
+ * read from the positions once, when the engine was made (a pair exactly at a step is outside it), and is changed by
+ * the pair's own events only, whatever the positions say (2016 paper, section 2). */
+int touchstone_pair_state(const struct touchstone_engine *engine, uint32_t first, uint32_t second);
+
+/* A particle's partner in a state other than 0. */
+struct touchstone_captured {
+	uint32_t partner;
+	int image[3]; /* boxes by which the partner's image that is meant lies off, as the engine now counts positions */
+	int state;
+};
+
+/* Lists up to `room` of them, in no order; returns how many there are. */
+size_t touchstone_captured(const struct touchstone_engine *engine, uint32_t particle, struct touchstone_captured *list,
+						   size_t room);
+
+/* The tracked side of a virtual wall on which a particle is: 0 in front of it (or exactly on it, when the engine was
+ * made), -1 behind it. Along a periodic axis: the number of the image of the wall that it is in front of and next to.
+ */
+int touchstone_side(const struct touchstone_engine *engine, uint32_t particle, size_t wall);
+
+/* What has passed a virtual wall since counting began, with its normal [0] and against it [1]. */
+struct touchstone_flux {
+	uint64_t count;
+	double mass, momentum[3], energy; /* kinetic; sums of numbers rounded to double */
+};
+void touchstone_flux(const struct touchstone_engine *engine, size_t wall, struct touchstone_flux flux[2]);
 
 /* How the engine went about the scene, for people: one line a fact. `line` is called for each. */
 void touchstone_explain(const struct touchstone_engine *engine, void (*line)(void *context, const char *text),

@@ -27,6 +27,21 @@ static inline int entry_image(uint32_t entry, int axis)
 	return (int)(code & 1) - (int)(code >> 1);
 }
 
+/* The same pair as the entry's particle sees it: +1 and -1 change places. */
+static inline uint32_t entry_mirrored(uint32_t entry, uint32_t particle)
+{
+	uint32_t images = entry >> ENTRY_BITS;
+	return particle | ((images & 0x15) << 1 | (images & 0x2a) >> 1) << ENTRY_BITS;
+}
+
+/* The entry's particle, so many boxes farther along an axis: -1, 0 or 1 in all. */
+static inline uint32_t entry_shifted(uint32_t entry, int axis, int by)
+{
+	int image = entry_image(entry, axis) + by;
+	uint32_t code = image < 0 ? 2 : (uint32_t)image;
+	return (entry & ~(UINT32_C(3) << (ENTRY_BITS + 2 * axis))) | code << (ENTRY_BITS + 2 * axis);
+}
+
 /* Lists the entries in use, but for `self`, in so many rows of `length` entries each, which begin at `centre` + offset.
  */
 typedef size_t cells_lister(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self,

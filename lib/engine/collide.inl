@@ -65,12 +65,10 @@ static void count_stall(struct touchstone_engine *engine, uint32_t i, bool stall
 	if (itinerary->stalls < 256 + 4 * engine->count || engine->verdict != TOUCHSTONE_DONE) return;
 	engine->verdict = TOUCHSTONE_COLLAPSED;
 	engine->blamed[0] = engine->blamed[1] = itinerary->id;
-	if (itinerary->meets == TOUCHSTONE_CONTACT)
-		engine->blamed[1] = engine->itinerary[entry_particle(itinerary->partner)].id;
+	if (with_particle(itinerary->meets)) engine->blamed[1] = engine->itinerary[entry_particle(itinerary->partner)].id;
 	snprintf(engine->reason, sizeof engine->reason, "%u events of particle %u (the last with %s %u) at t = %.17g",
-			 itinerary->stalls, itinerary->id, itinerary->meets == TOUCHSTONE_CONTACT ? "particle" : "wall",
-			 itinerary->meets == TOUCHSTONE_CONTACT ? engine->blamed[1] : itinerary->partner,
-			 moment_double(engine->now));
+			 itinerary->stalls, itinerary->id, met_name(itinerary->meets),
+			 with_particle(itinerary->meets) ? engine->blamed[1] : itinerary->partner, moment_double(engine->now));
 }
 
 /* Whether a particle's last event was now, as far as the clock can tell: within two units in its last place. (A ball
@@ -93,50 +91,82 @@ static int64_t steps_between(num reference, num x, int bits)
 	return fabs(steps) < 0x1p62 ? (int64_t)rint(steps) : steps < 0 ? INT64_MIN : INT64_MAX;
 }
 
-static void tell(struct touchstone_engine *engine, enum touchstone_kind kind, uint32_t i, uint32_t other, num distance,
-				 num contact, num approach, num impulse)
+/* Tells the observer of an event, of which `event` holds what is not given here. */
+static void tell(struct touchstone_engine *engine, struct touchstone_event *event, uint32_t i, uint32_t other,
+				 num distance, num contact, num approach, num impulse)
 {
-	struct touchstone_event event = {
-		.kind = kind,
-		.first = engine->itinerary[i].id,
-		.second = kind == TOUCHSTONE_CONTACT ? engine->itinerary[other].id : other,
-		.time = moment_double(engine->now),
-		.approach = to_double(approach),
-		.impulse = fabs(to_double(impulse)),
-		.distance = to_double(distance),
-		.steps = steps_between(contact, distance, engine->bits),
-	};
-	if (kind == TOUCHSTONE_CONTACT && event.second < event.first) {
-		uint32_t first = event.second;
-		event.second = event.first, event.first = first;
+	bool pair = with_particle((uint8_t)event->kind);
+	event->first = engine->itinerary[i].id;
+	event->second = pair ? engine->itinerary[other].id : other;
+	event->time = moment_double(engine->now);
+	event->approach = to_double(approach);
+	event->impulse = fabs(to_double(impulse));
+	event->distance = to_double(distance);
+	event->steps = steps_between(contact, distance, engine->bits);
+	if (pair && event->second < event->first) {
+		uint32_t first = event->second;
+		event->second = event->first, event->first = first;
 	}
-	engine->observer->event(engine->observer->context, engine, &event);
+	engine->observer->event(engine->observer->context, engine, event);
 }
 
-/* Two particles meet (2014 paper, eqs. 3 to 5). */
-static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
+/* Two particles at the moment of their event. */
+struct encounter {
+	uint32_t i, j, entry;
+	bool i_stalls, j_stalls;
+	num r[3], rr, rv;
+};
+
+/* Flies particle i and an entry to now. */
+static inline struct encounter bring_together(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
 {
 	uint32_t j = entry_particle(entry);
-	bool i_stalls = stalls(engine, i), j_stalls = stalls(engine, j);
+	struct encounter encounter;
+	encounter.i = i, encounter.j = j, encounter.entry = entry;
+	encounter.i_stalls = stalls(engine, i), encounter.j_stalls = stalls(engine, j);
 	struct body *first = &engine->body[i], *second = &engine->body[j];
 	advance(engine, first, &engine->place[i], engine->now);
 	advance(engine, second, &engine->place[j], engine->now);
-
-	num r[3], v[3], zero = from_double(0);
+	num *r = encounter.r, v[3], zero = from_double(0);
 	r[1] = r[2] = v[1] = v[2] = zero;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		r[axis] = offset_between(engine, i, j, entry_image(entry, axis), axis);
 		v[axis] = sub(first->velocity[axis], second->velocity[axis]);
 	}
-	num rr = dot(r, r), rv = dot(r, v), distance = zero, approach = zero;
-	bool constant = engine->elastic || engine->restitution.law == TOUCHSTONE_CONSTANT;
-	if (engine->observer || !constant) {
-		distance = root(rr);
-		approach = negated(divide(rv, distance));
+	encounter.rr = dot(r, r);
+	encounter.rv = dot(r, v);
+	return encounter;
+}
+
+/* Speed with which the two come nearer, and how far apart they are. */
+static inline num approach_of(const struct encounter *encounter, num *distance)
+{
+	*distance = root(encounter->rr);
+	return negated(divide(encounter->rv, *distance));
+}
+
+/* Names the pair to an observer, and tells it of the event. */
+static void tell_pair(struct touchstone_engine *engine, const struct encounter *encounter,
+					  struct touchstone_event *event, num at, num to_first)
+{
+	uint32_t i = encounter->i, j = encounter->j;
+	bool in_order = engine->itinerary[i].id < engine->itinerary[j].id;
+	num distance, approach = approach_of(encounter, &distance), mass = engine->mass[engine->place[i].species];
+	engine->touching[0] = in_order ? i : j, engine->touching[1] = in_order ? j : i;
+	engine->touching_distance = at;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		int image = entry_image(encounter->entry, axis);
+		engine->touching_image[axis] = in_order ? image : -image;
 	}
-	double restitution = engine->elastic ? 1 : restitution_at(engine->restitution, to_double(approach));
-	num one = from_double(1);
-	num kick = mul(add(one, from_double(restitution)), divide(rv, rr));
+	tell(engine, event, i, j, distance, at, approach, mul(mul(mass, to_first), distance));
+}
+
+/* Two particles whose event is at the distance `at` part with changed velocities: r times the kick is taken from their
+ * relative velocity, from either by its mass. */
+static inline void part(struct touchstone_engine *engine, const struct encounter *encounter, num kick,
+						struct touchstone_event *event, num at)
+{
+	uint32_t i = encounter->i, j = encounter->j;
 	if (!is_finite(kick)) {
 		engine->verdict = TOUCHSTONE_DIVERGED;
 		engine->blamed[0] = engine->itinerary[i].id, engine->blamed[1] = engine->itinerary[j].id;
@@ -154,25 +184,35 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 	}
 	to_first = mul(to_first, kick);
 	to_second = mul(to_second, kick);
-	if (engine->observer) {
-		num mass = engine->mass[engine->place[i].species];
-		bool in_order = engine->itinerary[i].id < engine->itinerary[j].id;
-		engine->touching[0] = in_order ? i : j, engine->touching[1] = in_order ? j : i;
-		for (int axis = 0; axis < engine->dimensions; axis++)
-			engine->touching_image[axis] = in_order ? entry_image(entry, axis) : -entry_image(entry, axis);
-		tell(engine, TOUCHSTONE_CONTACT, i, j, distance, contact_distance(engine, i, j), approach,
-			 mul(mul(mass, to_first), distance));
-	}
+	if (engine->observer) tell_pair(engine, encounter, event, at, to_first);
+	struct body *first = &engine->body[i], *second = &engine->body[j];
 	for (int axis = 0; axis < engine->dimensions; axis++) {
-		first->velocity[axis] = sub(first->velocity[axis], mul(to_first, r[axis]));
-		second->velocity[axis] = add(second->velocity[axis], mul(to_second, r[axis]));
+		first->velocity[axis] = sub(first->velocity[axis], mul(to_first, encounter->r[axis]));
+		second->velocity[axis] = add(second->velocity[axis], mul(to_second, encounter->r[axis]));
 	}
-	record(engine, rank_of(engine, i, entry, TOUCHSTONE_CONTACT));
-	engine->collisions++;
+	record(engine, rank_of(engine, i, encounter->entry, (uint8_t)event->kind));
+	engine->kinds[event->kind]++;
 	engine->itinerary[i].changes++;
 	engine->itinerary[j].changes++;
-	count_stall(engine, i, i_stalls);
-	count_stall(engine, j, j_stalls);
+	count_stall(engine, i, encounter->i_stalls);
+	count_stall(engine, j, encounter->j_stalls);
+}
+
+/* Two particles collide (2014 paper, eqs. 3 to 5). */
+static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
+{
+	struct encounter encounter = bring_together(engine, i, entry);
+	struct touchstone_restitution law = restitution_between(engine, i, encounter.j);
+	double restitution = 1, speed = 0;
+	if (!engine->elastic) {
+		num distance;
+		if (law.law != TOUCHSTONE_CONSTANT) speed = to_double(approach_of(&encounter, &distance));
+		restitution = restitution_at(law, speed);
+	}
+	num kick = mul(add(from_double(1), from_double(restitution)), divide(encounter.rv, encounter.rr));
+	int state = engine->pairs.bucket ? (int)pairs_get(&engine->pairs, i, entry) : 0;
+	struct touchstone_event event = {.kind = TOUCHSTONE_CONTACT, .before = state, .after = state};
+	part(engine, &encounter, kick, &event, contact_distance(engine, i, encounter.j));
 }
 
 /* A particle meets a wall. */
@@ -188,12 +228,14 @@ static void rebound(struct touchstone_engine *engine, uint32_t i, uint32_t numbe
 	if (engine->observer) {
 		uint32_t species = engine->place[i].species;
 		num contact = engine->radius[species];
-		tell(engine, TOUCHSTONE_WALL, i, number, add(over.distance, contact), contact, negated(over.speed),
+		struct touchstone_event event = {.kind = TOUCHSTONE_WALL};
+		tell(engine, &event, i, number, add(over.distance, contact), contact, negated(over.speed),
 			 mul(engine->mass[species], kick));
 	}
 	for (int axis = 0; axis < engine->dimensions; axis++)
 		body->velocity[axis] = sub(body->velocity[axis], mul(kick, wall->normal[axis]));
 	record(engine, rank_of(engine, i, number, TOUCHSTONE_WALL));
+	engine->kinds[TOUCHSTONE_WALL]++;
 	engine->itinerary[i].changes++;
 	count_stall(engine, i, stalled);
 }

@@ -21,10 +21,14 @@ static const struct method *find_policy(const char *name, char error[160])
 static void engine_destroy(struct touchstone_engine *engine)
 {
 	if (!engine) return;
+	for (size_t p = 0; p < engine->potential_count; p++) free(engine->potential[p].step);
 	cells_destroy(&engine->cells);
+	pairs_destroy(&engine->pairs);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body, engine->place, engine->itinerary,    engine->index_of,      engine->radius,
-					 engine->mass, engine->wall,  engine->candidate[0], engine->shadows.shadow};
+	void *owned[] = {engine->body,           engine->place,          engine->itinerary, engine->index_of,
+					 engine->radius,         engine->mass,           engine->wall,      engine->candidate[0],
+					 engine->shadows.shadow, engine->shadows.radius, engine->potential, engine->potential_of,
+					 engine->virtual_wall,   engine->side,           engine->crossed};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -90,6 +94,14 @@ static void set_position(const struct touchstone_engine *engine, const double po
 	}
 }
 
+static void set_plane(const struct touchstone_engine *engine, const double point[3], const double normal[3],
+					  struct wall *wall)
+{
+	set_position(engine, point, wall->position, wall->index);
+	for (int axis = 0; axis < 3; axis++) wall->normal[axis] = from_double(axis < engine->dimensions ? normal[axis] : 0);
+	wall->acceleration = dot(wall->normal, engine->acceleration);
+}
+
 static bool set_species_and_walls(struct touchstone_engine *engine, const struct touchstone_scene *scene)
 {
 	engine->species_count = scene->species_count;
@@ -103,15 +115,10 @@ static bool set_species_and_walls(struct touchstone_engine *engine, const struct
 		engine->mass[s] = from_double(scene->species[s].mass);
 		engine->largest = fmax(engine->largest, scene->species[s].diameter);
 	}
-	engine->contact = add(engine->radius[0], engine->radius[0]);
 	set_scales(engine, scene);
 	for (size_t w = 0; w < scene->wall_count; w++) {
-		struct wall *wall = &engine->wall[w];
-		wall->restitution = scene->walls[w].restitution;
-		set_position(engine, scene->walls[w].point, wall->position, wall->index);
-		for (int axis = 0; axis < 3; axis++)
-			wall->normal[axis] = from_double(axis < engine->dimensions ? scene->walls[w].normal[axis] : 0);
-		wall->acceleration = dot(wall->normal, engine->acceleration);
+		set_plane(engine, scene->walls[w].point, scene->walls[w].normal, &engine->wall[w]);
+		engine->wall[w].restitution = scene->walls[w].restitution;
 	}
 	return true;
 }
@@ -177,6 +184,7 @@ static bool set_sieve(struct touchstone_engine *engine)
 	struct shadows *shadows = &engine->shadows;
 	bool straight = !engine->accelerated, alone = engine->count < 2;
 	if (engine->search != TOUCHSTONE_CELLS || engine->method->sieve == SIEVE_NOTHING || !straight || alone) return true;
+	if (!set_shadow_radii(engine)) return shadows->radius;
 	shadows->machine = sieve_machine(0);
 	shadows->shadow = aligned_alloc(64, (engine->count * sizeof *shadows->shadow + 63) / 64 * 64);
 	return shadows->shadow;
@@ -197,7 +205,9 @@ static bool scene_makes_sense(const struct touchstone_scene *scene, char error[1
 	for (int axis = 0; axis < scene->dimensions; axis++)
 		if (!(scene->box[axis] > 0 && scene->box[axis] < INFINITY))
 			return refuse(error, "axis %d: the box must have a positive extent", axis);
-	return true;
+	struct scene_error complaint;
+	if (potential_check(scene, &complaint) && potential_check_virtual_walls(scene, &complaint)) return true;
+	return refuse(error, "%s: %.100s", complaint.key, complaint.text);
 }
 
 static struct touchstone_engine *engine_create(const struct touchstone_scene *scene, const char *method,
@@ -221,10 +231,13 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	engine->digest = first_digest;
 	engine->now.time = from_double(0);
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
-	bool made = set_species_and_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
+	bool made = set_species_and_walls(engine, scene) && set_potentials(engine, scene) &&
+				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
 	if (made) {
 		engine->slack = slack_needed(engine, 0, typical_speed(engine));
-		made = lay_out(engine);
+		made = (engine->count < 2 || lay_out_cells(engine)) && read_states(engine);
+		read_sides(engine);
+		made = made && look_ahead(engine);
 	}
 	if (!made) {
 		refuse(error, "not enough memory for %zu particles", scene->particle_count);

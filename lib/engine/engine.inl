@@ -7,7 +7,9 @@
 #include <string.h>
 
 #include "engine/cells.h"
+#include "engine/pairs.h"
 #include "engine/sieve.h"
+#include "scene/potential.h"
 #include "touchstone.h"
 #include "unit/unit.h"
 
@@ -47,14 +49,20 @@ extern const struct unit THIS_UNIT;
 #include "engine/state.inl"
 
 #include "engine/motion.inl"
+
+#include "engine/potential.inl"
 #include "engine/shadow.inl"
 
 #include "engine/search.inl"
 
 #include "engine/collide.inl"
+#include "engine/crossing.inl"
 #include "engine/layout.inl"
+#include "engine/step.inl"
 
 #include "engine/run.inl"
+
+#include "engine/create_states.inl"
 
 #include "engine/create.inl"
 

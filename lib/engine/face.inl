@@ -1,10 +1,16 @@
 /* What an engine tells, and the table the unit exports. */
 
+static size_t state_memory(const struct touchstone_engine *engine)
+{
+	size_t walls = engine->virtual_wall_count * sizeof *engine->side + sizeof *engine->crossed;
+	return pairs_memory(&engine->pairs) + (engine->side ? engine->count * walls : 0);
+}
+
 static size_t engine_memory(const struct touchstone_engine *engine)
 {
 	size_t each = sizeof *engine->body + sizeof *engine->place + sizeof *engine->itinerary + sizeof *engine->index_of +
 				  (engine->shadows.shadow ? sizeof *engine->shadows.shadow : 0);
-	return sizeof *engine + engine->count * each + agenda_memory(&engine->agenda) +
+	return sizeof *engine + engine->count * each + state_memory(engine) + agenda_memory(&engine->agenda) +
 		   engine->cells.entries * sizeof *engine->cells.entry;
 }
 
@@ -15,11 +21,18 @@ static void engine_status(const struct touchstone_engine *engine, struct touchst
 		.count = engine->count,
 		.bits = engine->bits,
 		.events = engine->events,
-		.collisions = engine->collisions,
+		.collisions = engine->kinds[TOUCHSTONE_CONTACT],
+		.captures = engine->kinds[TOUCHSTONE_CAPTURE],
+		.releases = engine->kinds[TOUCHSTONE_RELEASE],
+		.bounces = engine->kinds[TOUCHSTONE_BOUNCE],
+		.crossings = engine->kinds[TOUCHSTONE_CROSSING],
+		.captured = engine->pairs.count,
+		.potential_energy = potential_energy(engine),
 		.lookups = engine->lookups,
 		.time = moment_double(engine->now),
 		.digest = engine->digest,
 		.memory = engine_memory(engine),
+		.state_memory = state_memory(engine),
 		.particles = {engine->blamed[0], engine->blamed[1]},
 	};
 	memcpy(status->reason, engine->reason, sizeof status->reason);
@@ -27,7 +40,10 @@ static void engine_status(const struct touchstone_engine *engine, struct touchst
 
 static void engine_recount(struct touchstone_engine *engine)
 {
-	engine->events = engine->collisions = engine->lookups = 0;
+	engine->events = engine->lookups = 0;
+	memset(engine->kinds, 0, sizeof engine->kinds);
+	for (size_t w = 0; w < engine->virtual_wall_count; w++)
+		memset(engine->virtual_wall[w].flux, 0, sizeof engine->virtual_wall[w].flux);
 	engine->digest = first_digest;
 }
 
@@ -72,8 +88,78 @@ static int engine_separation(const struct touchstone_engine *engine, double term
 	for (int axis = 0; axis < 3; axis++)
 		for (int term = count[axis]; term < most; term++) terms[axis][term] = 0;
 	memset(contact, 0, TOUCHSTONE_MOST_TERMS * sizeof *contact);
-	expand(contact_distance(engine, i, j), contact, TOUCHSTONE_MOST_TERMS);
+	expand(engine->touching_distance, contact, TOUCHSTONE_MOST_TERMS);
 	return most;
+}
+
+static int engine_pair_state(const struct touchstone_engine *engine, uint32_t first, uint32_t second)
+{
+	if (!engine->pairs.bucket) return 0;
+	uint32_t count, state = 0, partner = engine->index_of[second];
+	const struct pair_state *captured = pairs_of(&engine->pairs, engine->index_of[first], &count);
+	for (uint32_t k = 0; k < count; k++)
+		if (entry_particle(captured[k].entry) == partner && captured[k].state > state) state = captured[k].state;
+	return (int)state;
+}
+
+static size_t engine_captured(const struct touchstone_engine *engine, uint32_t particle,
+							  struct touchstone_captured *list, size_t room)
+{
+	if (!engine->pairs.bucket) return 0;
+	uint32_t count;
+	const struct pair_state *captured = pairs_of(&engine->pairs, engine->index_of[particle], &count);
+	for (uint32_t k = 0; k < count && k < room; k++) {
+		uint32_t entry = captured[k].entry;
+		list[k] = (struct touchstone_captured){
+			engine->itinerary[entry_particle(entry)].id,
+			{entry_image(entry, 0), entry_image(entry, 1), entry_image(entry, 2)},
+			(int)captured[k].state,
+		};
+	}
+	return count;
+}
+
+static int engine_side(const struct touchstone_engine *engine, uint32_t particle, size_t wall)
+{
+	return *side_of(engine, engine->index_of[particle], wall);
+}
+
+static void engine_flux(const struct touchstone_engine *engine, size_t wall, struct touchstone_flux flux[2])
+{
+	memcpy(flux, engine->virtual_wall[wall].flux, sizeof engine->virtual_wall[wall].flux);
+}
+
+/* What particles are to each other, and which states must be tracked for it. */
+static void explain_states(const struct touchstone_engine *engine, void (*line)(void *context, const char *text),
+						   void *context)
+{
+	char text[240];
+	if (!engine->potential_count) line(context, "pair states: none; hard bodies have nothing to remember");
+	for (size_t p = 0; p < engine->potential_count; p++) {
+		const struct potential *potential = &engine->potential[p];
+		int length = snprintf(text, sizeof text, "potential %zu: ", p + 1);
+		if (potential->hard)
+			length += snprintf(text + length, sizeof text - (size_t)length, "core at %g", to_double(potential->core));
+		else
+			length += snprintf(text + length, sizeof text - (size_t)length, "no core");
+		for (uint32_t s = potential->step_count; s-- > 0 && length < 200;)
+			length += snprintf(text + length, sizeof text - (size_t)length, "%s %g within %g",
+							   s + 1 == potential->step_count ? "; energy" : ",", potential->step[s].energy,
+							   to_double(potential->step[s].distance));
+		if (length >= 200) snprintf(text + length, sizeof text - (size_t)length, ", ...");
+		line(context, text);
+	}
+	if (engine->pairs.bucket) {
+		snprintf(text, sizeof text,
+				 "pair states: tracked, since at a step positions cannot tell in from out; stored for the %llu pairs "
+				 "within a step, in %.3g bytes per particle",
+				 (unsigned long long)engine->pairs.count, (double)pairs_memory(&engine->pairs) / engine->count);
+		line(context, text);
+	}
+	if (!engine->virtual_wall_count) return;
+	snprintf(text, sizeof text, "virtual walls: %zu; the side each particle is on is tracked, and nothing moves",
+			 engine->virtual_wall_count);
+	line(context, text);
 }
 
 static void engine_explain(const struct touchstone_engine *engine, void (*line)(void *context, const char *text),
@@ -111,7 +197,7 @@ static void engine_explain(const struct touchstone_engine *engine, void (*line)(
 	line(context, engine->accelerated ? "flights: parabolas" : "flights: straight, so no acceleration is computed");
 	line(context, engine->species_count > 1 ? "species: several, contact distance per pair"
 											: "species: one, so one contact distance for all pairs");
-	line(context, "pair states: none; hard bodies have nothing to remember");
+	explain_states(engine, line, context);
 }
 
 const struct unit THIS_UNIT = {
@@ -126,6 +212,10 @@ const struct unit THIS_UNIT = {
 	.elastic = engine_elastic,
 	.state = engine_state,
 	.separation = engine_separation,
+	.pair_state = engine_pair_state,
+	.captured = engine_captured,
+	.side = engine_side,
+	.flux = engine_flux,
 	.explain = engine_explain,
 	.drop = unit_drop,
 	.find = unit_find,

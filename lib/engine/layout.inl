@@ -1,13 +1,13 @@
 /* Where to look: laying out cells and agenda. Any layout gives the same events; a poor one only takes longer. */
 
-/* How much wider than the largest contact distance a cell must be, so that no rounding of positions, of the reach of
- * a far pair's discriminant, or (absolute form) of a late clock hides a neighbour. */
+/* How much wider than the largest distance at which anything happens a cell must be, so that no rounding of positions,
+ * of the reach of a far pair's discriminant, or (absolute form) of a late clock hides a neighbour. */
 static double slack_needed(const struct touchstone_engine *engine, double clock, double speed)
 {
 	double extent = 0, roundoff = ldexp(1, -engine->bits);
 	for (int axis = 0; axis < engine->dimensions; axis++) extent = fmax(extent, engine->box[axis]);
 	double drift = engine->page_length < INFINITY ? engine->page_length : clock;
-	return 0x1p-14 * engine->largest + 16 * roundoff * (extent * (1 + extent / engine->largest) + 8 * drift * speed);
+	return 0x1p-14 * engine->reach + 16 * roundoff * (extent * (1 + extent / engine->largest) + 8 * drift * speed);
 }
 
 /* Coordinate of a particle now, in the image of the box it is in. */
@@ -55,11 +55,11 @@ static bool make_cells(struct touchstone_engine *engine, const int count[3], uin
 static bool lay_out_cells(struct touchstone_engine *engine)
 {
 	static const int most_per_axis = 60000;
-	double volume = 1, content = engine->count, reach = engine->largest + engine->slack;
+	double volume = 1, content = engine->count, reach = engine->reach + engine->slack;
 	int count[3] = {1, 1, 1};
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		volume *= engine->box[axis];
-		content *= engine->largest;
+		content *= engine->reach;
 	}
 	/* Where particles are far apart, larger cells: crossing one costs more than looking at more neighbours. */
 	double occupancy = 0.45 * pow(content / volume, -1.0 / 3);
@@ -77,8 +77,8 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 			double coordinate = coordinate_now(engine, i, axis), box = engine->box[axis];
 			if (engine->periodic[axis] && fabs(coordinate) > box / 2) { /* the image that is in the box */
 				double boxes = rint(coordinate / box);
-				engine->place[i].index[axis] -= (int32_t)(boxes * engine->places[axis]);
 				coordinate -= boxes * box;
+				for (; boxes != 0; boxes -= copysign(1, boxes)) shift_image(engine, i, axis, boxes > 0 ? -1 : 1);
 			}
 			engine->itinerary[i].cell[axis] = cell_of(engine, coordinate, axis);
 		}
@@ -129,11 +129,16 @@ static bool lay_out_agenda(struct touchstone_engine *engine, double day)
 	return !engine->agenda.exhausted;
 }
 
-/* Lays out everything for the state as it is, and predicts every particle's next event. */
-static bool lay_out(struct touchstone_engine *engine)
+/* Predicts every particle's next event. */
+static bool look_ahead(struct touchstone_engine *engine)
 {
-	if (engine->count > 1 && !lay_out_cells(engine)) return false;
 	cast_shadows(engine);
 	for (uint32_t i = 0; i < engine->count; i++) predict(engine, i);
 	return lay_out_agenda(engine, day_length(engine));
+}
+
+/* Lays out everything for the state as it is. */
+static bool lay_out(struct touchstone_engine *engine)
+{
+	return (engine->count < 2 || lay_out_cells(engine)) && look_ahead(engine);
 }

@@ -83,26 +83,28 @@ static inline const struct body *relative_state(const struct touchstone_engine *
 	return second_flies ? first : second;
 }
 
-static inline num contact_distance(const struct touchstone_engine *engine, uint32_t i, uint32_t j)
+/* A body over a wall that it touches at so much from its centre. Where its centre is in contact is formed first: near
+ * it the difference is then exact, and a ball at rest is at rest (the other order lets the rounding of every landing
+ * through; the table of orders that `reproduce fig7` prints shows what that does). The distance is that from contact.
+ */
+static inline struct flight over_plane(const struct touchstone_engine *engine, const struct body *body,
+									   const struct place *place, const struct wall *wall, num radius)
 {
-	if (engine->species_count == 1) return engine->contact;
-	return add(engine->radius[engine->place[i].species], engine->radius[engine->place[j].species]);
-}
-
-/* A particle over a wall, at the particle's last event. Where its centre is in contact is formed first: near it the
- * difference is then exact, and a ball at rest is at rest (the other order lets the rounding of every landing through;
- * the table of orders that `reproduce fig7` prints shows what that does). The distance is that from contact. */
-static struct flight over_wall(const struct touchstone_engine *engine, uint32_t i, const struct wall *wall)
-{
-	const struct body *body = &engine->body[i];
-	num radius = engine->radius[engine->place[i].species], gap = from_double(0), speed = gap;
+	num gap = from_double(0), speed = gap;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		num touching = add(wall->position[axis], mul(wall->normal[axis], radius));
 		num offset = sub(body->position[axis], touching);
-		int32_t places = engine->place[i].index[axis] - wall->index[axis];
+		int32_t places = place->index[axis] - wall->index[axis];
 		if (places) offset = add(offset, mul(from_double(places), engine->place_size[axis]));
 		gap = add(gap, mul(wall->normal[axis], offset));
 		speed = add(speed, mul(wall->normal[axis], body->velocity[axis]));
 	}
 	return (struct flight){gap, speed, wall->acceleration, from_double(0)};
+}
+
+/* A particle over a wall, at the particle's last event. */
+static struct flight over_wall(const struct touchstone_engine *engine, uint32_t i, const struct wall *wall)
+{
+	const struct place *place = &engine->place[i];
+	return over_plane(engine, &engine->body[i], place, wall, engine->radius[place->species]);
 }

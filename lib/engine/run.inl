@@ -1,11 +1,5 @@
 /* The event loop. */
 
-static void out_of_memory(struct touchstone_engine *engine)
-{
-	engine->verdict = TOUCHSTONE_HALTED;
-	snprintf(engine->reason, sizeof engine->reason, "memory ran out at t = %.17g", moment_double(engine->now));
-}
-
 /* A particle leaves its cell, and perhaps its image of the box: it is looked up in the new one. */
 static void cross(struct touchstone_engine *engine, uint32_t i)
 {
@@ -16,7 +10,7 @@ static void cross(struct touchstone_engine *engine, uint32_t i)
 	cells_remove(&engine->cells, itinerary->cell, i);
 	if (wraps) {
 		cell -= side * last;
-		engine->place[i].index[axis] -= side * engine->places[axis];
+		shift_image(engine, i, axis, -side);
 	}
 	itinerary->cell[axis] = (uint16_t)cell;
 	if (!cells_insert(&engine->cells, itinerary->cell, i)) {
@@ -62,20 +56,23 @@ static void look_over(struct touchstone_engine *engine)
 static bool stale(const struct touchstone_engine *engine, uint32_t i)
 {
 	const struct itinerary *itinerary = &engine->itinerary[i];
-	return engine->itinerary[i].meets == TOUCHSTONE_CONTACT &&
+	return with_particle(engine->itinerary[i].meets) &&
 		   engine->itinerary[entry_particle(itinerary->partner)].changes != itinerary->partner_changes;
 }
 
 static void execute(struct touchstone_engine *engine, uint32_t i)
 {
 	uint32_t partner = engine->itinerary[i].partner, met[2] = {i, entry_particle(partner)};
-	int particles = engine->itinerary[i].meets == TOUCHSTONE_CONTACT ? 2 : 1;
+	uint8_t meets = engine->itinerary[i].meets;
+	int particles = with_particle(meets) ? 2 : 1;
 	engine->now = (struct moment){engine->itinerary[i].page, engine->itinerary[i].time};
 	keep_time(engine);
-	if (particles == 2)
+	if (meets == TOUCHSTONE_CONTACT)
 		collide(engine, i, partner);
-	else
+	else if (meets == TOUCHSTONE_WALL)
 		rebound(engine, i, partner);
+	else
+		meet_step(engine, i, partner, meets == TOUCHSTONE_CAPTURE);
 	for (int p = 0; p < particles; p++) cast_shadow(engine, met[p]);
 	predict_all(engine, met, particles);
 	for (int p = 0; p < particles; p++) schedule(engine, met[p]);
@@ -86,6 +83,11 @@ static void wait_until(struct touchstone_engine *engine, double time)
 {
 	double page = time >= engine->page_length ? floor(time / engine->page_length) * engine->page_length : 0;
 	engine->now = (struct moment){page, from_double(time - page)};
+}
+
+static bool crosses(const struct touchstone_engine *engine, uint32_t i)
+{
+	return engine->itinerary[i].meets == TOUCHSTONE_CROSSING;
 }
 
 /* When the earliest entry of the agenda falls due. */
@@ -134,13 +136,14 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 		} else if (due(engine, &entry) > limits->time) {
 			wait_until(engine, limits->time);
 			break;
-		} else if (engine->itinerary[i].next != NEXT_IS_PHYSICAL || stale(engine, i)) {
+		} else if (engine->itinerary[i].next != NEXT_IS_PHYSICAL || crosses(engine, i) || stale(engine, i)) {
 			if (++looks > patience(engine)) break;
 			engine->lookups++;
 			heap_drop(agenda, engine);
 			if (engine->itinerary[i].next != NEXT_IS_PHYSICAL) {
 				cross(engine, i);
 			} else {
+				if (crosses(engine, i)) pass_virtual_wall(engine, i);
 				cast_shadow(engine, i);
 				predict(engine, i);
 				schedule(engine, i);

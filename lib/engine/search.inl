@@ -4,13 +4,13 @@
 static uint64_t rank_of(const struct touchstone_engine *engine, uint32_t i, uint32_t partner, uint8_t meets)
 {
 	uint64_t low = engine->itinerary[i].id, high = partner, images = 0;
-	if (meets == TOUCHSTONE_CONTACT) {
+	if (with_particle(meets)) {
 		high = engine->itinerary[entry_particle(partner)].id;
 		images = partner >> ENTRY_BITS;
-		if (high < low) { /* the same pair seen from the other side: +1 and -1 change places */
+		if (high < low) { /* the same pair seen from the other side */
 			uint64_t other = low;
 			low = high, high = other;
-			images = (images & 0x15) << 1 | (images & 0x2a) >> 1;
+			images = entry_mirrored(partner, i) >> ENTRY_BITS;
 		}
 	}
 	return (uint64_t)meets << 58 | low << 32 | high << 6 | images;
@@ -21,17 +21,30 @@ static bool moment_before(struct moment a, struct moment b)
 	return a.page != b.page ? a.page < b.page : less(a.time, b.time);
 }
 
+static const char *met_name(uint8_t meets)
+{
+	return with_particle(meets) ? "particle" : meets == TOUCHSTONE_WALL ? "wall" : "virtual wall";
+}
+
 /* The method has no answer that the engine could go on with. */
 static void halt(struct touchstone_engine *engine, uint32_t i, const struct body *later, num wait, uint8_t meets,
 				 uint32_t partner)
 {
-	bool pair = meets == TOUCHSTONE_CONTACT, negative = less(wait, from_double(0));
+	bool pair = with_particle(meets), negative = less(wait, from_double(0));
 	engine->verdict = negative || is_finite(later->velocity[0]) ? TOUCHSTONE_HALTED : TOUCHSTONE_DIVERGED;
 	engine->blamed[0] = engine->itinerary[i].id;
-	engine->blamed[1] = pair ? engine->itinerary[entry_particle(partner)].id : partner;
+	engine->blamed[1] = pair                       ? engine->itinerary[entry_particle(partner)].id
+						: meets == TOUCHSTONE_WALL ? partner
+												   : partner / 2;
 	snprintf(engine->reason, sizeof engine->reason, "the time from particle %u to %s %u is %s, at t = %.17g",
-			 engine->blamed[0], pair ? "particle" : "wall", engine->blamed[1], negative ? "negative" : "not a number",
+			 engine->blamed[0], met_name(meets), engine->blamed[1], negative ? "negative" : "not a number",
 			 later->page + to_double(later->time));
+}
+
+static void out_of_memory(struct touchstone_engine *engine)
+{
+	engine->verdict = TOUCHSTONE_HALTED;
+	snprintf(engine->reason, sizeof engine->reason, "memory ran out at t = %.17g", moment_double(engine->now));
 }
 
 /* Weighs one more possible event of particle i. */
@@ -60,7 +73,7 @@ static void consider(struct touchstone_engine *engine, uint32_t i, const struct 
 		consider_moment(engine, i, moment_on(engine, later->page, add(later->time, wait)), meets, partner, plan);
 }
 
-/* Weighs the meetings of particle i with so many entries. */
+/* Weighs the meetings of particle i with so many entries that are not captured. */
 static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const uint32_t *candidate, size_t candidates,
 						   struct plan *plan)
 {
@@ -68,8 +81,9 @@ static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const u
 		struct balls balls;
 		struct quadratic f;
 		const struct body *later = relative_state(engine, i, candidate[k], balls.r, balls.v);
-		balls.contact = contact_distance(engine, i, entry_particle(candidate[k]));
-		consider(engine, i, later, engine->method->ball_ball(&balls, &f), TOUCHSTONE_CONTACT, candidate[k], plan);
+		uint8_t meets = first_meeting(engine, i, entry_particle(candidate[k]), &balls.contact);
+		if (meets == MEETS_NOTHING) continue;
+		consider(engine, i, later, engine->method->ball_ball(&balls, &f), meets, candidate[k], plan);
 	}
 }
 
@@ -91,9 +105,14 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 	itinerary->time = plan->moment.time;
 	itinerary->page = plan->moment.page;
 	itinerary->partner = plan->partner;
-	if (plan->meets == TOUCHSTONE_CONTACT)
+	if (with_particle(plan->meets))
 		itinerary->partner_changes = engine->itinerary[entry_particle(plan->partner)].changes;
 }
+
+static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
+static size_t without_captured(const struct touchstone_engine *engine, uint32_t i, uint32_t *candidate,
+							   size_t candidates);
+static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
 
 /* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
  * together: each step waits for the one before it, and not for the other particle's. */
@@ -103,10 +122,15 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 	size_t candidates[2] = {0};
 	for (int p = 0; p < particles; p++) plan[p] = (struct plan){.meets = MEETS_NOTHING};
 	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
+	for (int p = 0; engine->side && p < particles; p++) consider_virtual_walls(engine, particle[p], &plan[p]);
 	if (engine->count > 1) {
 		uint32_t *const *list = engine->candidate;
 		for (int p = 0; p < particles; p++)
 			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
+		for (int p = 0; engine->pairs.bucket && p < particles; p++) {
+			consider_captured(engine, particle[p], &plan[p]);
+			candidates[p] = without_captured(engine, particle[p], list[p], candidates[p]);
+		}
 		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
 		for (int p = 0; p < particles; p++) consider_pairs(engine, particle[p], list[p], candidates[p], &plan[p]);
 	}
@@ -126,6 +150,7 @@ static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axi
 	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, engine->itinerary[i].meets, false};
 	uint32_t *list = engine->candidate[0];
 	size_t candidates = cells_beyond(&engine->cells, engine->itinerary[i].cell, axis, side, i, list);
+	if (engine->pairs.bucket) candidates = without_captured(engine, i, list, candidates);
 	candidates = sift(engine, i, list, candidates, &plan);
 	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);

@@ -21,7 +21,7 @@ static void cast_shadow(struct touchstone_engine *engine, uint32_t i)
 		position[axis] = to_double(body->position[axis]) + place->index[axis] * engine->place_width[axis];
 		position[axis] = position[axis] * shadows->per_length + velocity[axis] * flight;
 	}
-	double radius = to_double(engine->radius[place->species]) * shadows->per_length;
+	double radius = shadows->radius[place->species] * shadows->per_length;
 	shadows->machine->cast(&shadows->shadow[i], position[0], position[1], position[2], shadows->now, velocity[0],
 						   velocity[1], velocity[2], radius);
 }
@@ -66,7 +66,7 @@ static void cast_shadows(struct touchstone_engine *engine)
 	double speed = typical_speed(engine);
 	shadows->base_page = engine->now.page;
 	shadows->base_time = to_double(engine->now.time);
-	shadows->per_length = 1 / power_of_two_below(engine->largest);
+	shadows->per_length = 1 / power_of_two_below(engine->reach);
 	shadows->per_time = speed > 0 && speed < INFINITY ? power_of_two_below(speed) * shadows->per_length : 1;
 	shadows->per_speed = shadows->per_length / shadows->per_time;
 	shadows->now = shadows->age = 0;

@@ -17,6 +17,13 @@ struct place {
 };
 
 enum { MEETS_NOTHING = 255 };
+
+/* Whether what is met is a particle. */
+static inline bool with_particle(uint8_t meets)
+{
+	return meets != TOUCHSTONE_WALL && meets != TOUCHSTONE_CROSSING;
+}
+
 enum { NEXT_IS_PHYSICAL = 0 }; /* otherwise 1 + 2 axis + (side > 0): a cell is left that way */
 
 /* Where a particle is and what comes next for it, as far as it knows: one cache line in binary64. */
@@ -58,9 +65,35 @@ struct wall {
 	struct touchstone_restitution restitution;
 };
 
+/* A step of a potential. The state of a pair is how many steps it is within, counted from outside. */
+struct step {
+	num distance;
+	num climb; /* on the way in, of (r.v / |r|)^2: what it loses, 2 (energy inside - energy outside) / reduced mass */
+	double energy;  /* of a pair inside it and not inside the next, as the steps in this arithmetic add up to */
+	uint64_t pairs; /* in that state now */
+};
+
+/* What the particles of two species are to each other. */
+struct potential {
+	bool hard; /* whether they collide: */
+	num core;  /* at this distance */
+	struct touchstone_restitution restitution;
+	uint32_t step_count;
+	struct step *step; /* from outside in */
+};
+
+/* A virtual wall, which stands once in every image of the box along `axis`. */
+struct virtual_wall {
+	struct wall plane;
+	int axis;  /* the periodic axis along which its normal lies, or -1 */
+	int along; /* whether the normal points up that axis (1) or down (-1) */
+	struct touchstone_flux flux[2];
+};
+
 /* The shadows of all particles, and the scale they are cast in: engine/shadow.inl. */
 struct shadows {
 	struct shadow *shadow; /* NULL: the sieve is not used */
+	double *radius;        /* per species: two add up to the distance at which two particles first meet */
 	const struct sieve_machine *machine;
 	struct sieve sieve;
 	double base_page, base_time;            /* when the shadows' time is 0 */
@@ -87,12 +120,25 @@ struct touchstone_engine {
 	double box[3];
 	size_t species_count, wall_count;
 	num *radius, *mass; /* per species */
-	num contact;        /* of two particles, where there is one species */
 	struct wall *wall;
 	bool accelerated;
 	num acceleration[3], half_acceleration[3];
 	struct touchstone_restitution restitution;
 	bool elastic; /* overrides every restitution */
+
+	/* what pairs of particles are to each other */
+	size_t potential_count;
+	struct potential *potential;
+	uint32_t *potential_of; /* per pair of species: number of its potential; NULL: all particles are hard bodies */
+	struct pairs pairs;     /* those within a step */
+	num outermost;          /* distance at which two particles first meet, where there is one species, */
+	uint8_t outermost_kind; /* and what then happens: enum touchstone_kind, or MEETS_NOTHING */
+
+	/* virtual walls; side and crossed are NULL without */
+	size_t virtual_wall_count;
+	struct virtual_wall *virtual_wall;
+	int32_t *side;          /* per particle and virtual wall: the number of the image it is in front of and next to */
+	struct moment *crossed; /* per particle: when it last passed one */
 
 	/* places and pages: how numbers are kept small */
 	num place_size[3];
@@ -104,8 +150,9 @@ struct touchstone_engine {
 
 	/* where to look */
 	enum touchstone_search search;
-	double wanted_cell, largest; /* largest: contact distance */
-	double slack;                /* how much wider than `largest` a cell must be for rounding not to matter */
+	double wanted_cell, largest; /* largest: diameter */
+	double reach;                /* largest distance at which anything happens to a pair */
+	double slack;                /* how much wider than `reach` a cell must be for rounding not to matter */
 	double cell_side[3];
 	struct cells cells;
 	uint32_t *candidate[2]; /* entries that a search has listed; two searches may be under way */
@@ -114,11 +161,12 @@ struct touchstone_engine {
 
 	/* what has happened */
 	struct moment now;
-	uint64_t events, collisions, lookups, digest;
+	uint64_t events, kinds[TOUCHSTONE_CROSSING + 1], lookups, digest; /* kinds: events of each kind */
 	enum touchstone_verdict verdict;
 	char reason[160];
 	uint32_t blamed[2];
 	const struct touchstone_observer *observer;
-	uint32_t touching[2]; /* the pair in contact while an observer is called */
+	uint32_t touching[2]; /* the pair whose event it is while an observer is called */
 	int touching_image[3];
+	num touching_distance;
 };

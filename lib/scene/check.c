@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "scene/potential.h"
 #include "scene/spatial_hash.h"
 
 bool scene_refuse(struct scene_error *error, const char *key, size_t particle, const char *format, ...)
@@ -112,6 +113,7 @@ bool scene_check_frame(const struct touchstone_scene *scene, struct scene_error 
 							SCENE_MOST_PARTICLES);
 	if (!check_species(scene, error) || !check_box(scene, error) || !check_walls(scene, error)) return false;
 	if (!scene_check_restitution(scene->restitution, "restitution", error)) return false;
+	if (!potential_check(scene, error) || !potential_check_virtual_walls(scene, error)) return false;
 	if (!finite_vector(scene->acceleration))
 		return scene_refuse(error, "gravity", SIZE_MAX, "not finite; accepted: finite numbers");
 	if (!(scene->cell >= 0) || !isfinite(scene->cell))

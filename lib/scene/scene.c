@@ -14,6 +14,9 @@ void scene_free(struct touchstone_scene *scene)
 	free((void *)scene->particles);
 	free((void *)scene->species);
 	free((void *)scene->walls);
+	free((void *)scene->virtual_walls);
+	for (size_t p = 0; p < scene->potential_count; p++) free((void *)scene->potentials[p].steps);
+	free((void *)scene->potentials);
 	*scene = (struct touchstone_scene){0};
 }
 
@@ -110,6 +113,12 @@ static struct touchstone_species *make_species(const struct scene_recipe *recipe
 	return species;
 }
 
+static void set_length_1(double normal[3])
+{
+	double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+	for (int axis = 0; axis < 3; axis++) normal[axis] /= length;
+}
+
 /* The walls listed, then those at the ends of axes. */
 static struct touchstone_wall *make_walls(const struct scene_recipe *recipe, const double box[3], size_t *count)
 {
@@ -119,9 +128,7 @@ static struct touchstone_wall *make_walls(const struct scene_recipe *recipe, con
 	for (size_t w = 0; w < recipe->wall_count; w++) {
 		struct touchstone_wall *wall = &walls[(*count)++];
 		*wall = recipe->walls[w];
-		const double *normal = recipe->walls[w].normal;
-		double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-		for (int axis = 0; axis < 3; axis++) wall->normal[axis] = normal[axis] / length;
+		set_length_1(wall->normal);
 	}
 	for (int axis = 0; axis < recipe->dimensions; axis++) {
 		if (recipe->boundary[axis] != SCENE_WALLS) continue;
@@ -133,6 +140,31 @@ static struct touchstone_wall *make_walls(const struct scene_recipe *recipe, con
 		}
 	}
 	return walls;
+}
+
+/* Copies the potentials, each with its steps, and the virtual walls; false when there is no memory. */
+static bool copy_interactions(const struct scene_recipe *recipe, struct touchstone_scene *scene)
+{
+	struct touchstone_potential *potentials = calloc(recipe->potential_count + 1, sizeof *potentials);
+	struct touchstone_virtual_wall *walls = calloc(recipe->virtual_wall_count + 1, sizeof *walls);
+	scene->potentials = potentials;
+	scene->virtual_walls = walls;
+	if (!potentials || !walls) return false;
+	for (size_t p = 0; p < recipe->potential_count; p++) {
+		potentials[p] = recipe->potentials[p];
+		size_t size = potentials[p].step_count * sizeof *potentials[p].steps;
+		struct touchstone_step *steps = malloc(size + 1);
+		potentials[p].steps = steps;
+		scene->potential_count++;
+		if (!steps) return false;
+		if (size) memcpy(steps, recipe->potentials[p].steps, size);
+	}
+	for (size_t w = 0; w < recipe->virtual_wall_count; w++) {
+		walls[w] = recipe->virtual_walls[w];
+		set_length_1(walls[w].normal);
+	}
+	scene->virtual_wall_count = recipe->virtual_wall_count;
+	return true;
 }
 
 /* By Newton's rule from above, which falls until it has arrived. */
@@ -192,7 +224,7 @@ bool scene_build(const struct scene_recipe *recipe, uint64_t seed, struct touchs
 		scene->species_count = recipe->species_count;
 		set_box(recipe, scene);
 		scene->walls = make_walls(recipe, scene->box, &scene->wall_count);
-		built = scene->walls;
+		built = scene->walls && copy_interactions(recipe, scene);
 	}
 	if (!built) scene_refuse(error, "particles", SIZE_MAX, "no memory for %zu", recipe->particle_count);
 	built = built && scene_check_frame(scene, error) && placement_fill(recipe, scene, particles, &random, error);

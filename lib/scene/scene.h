@@ -45,7 +45,11 @@ struct scene_recipe {
 	const struct touchstone_wall *walls; /* further ones; normals of any length above 0 */
 	size_t species_count;
 	const struct scene_species *species;
-	struct touchstone_restitution restitution; /* between particles */
+	struct touchstone_restitution restitution; /* between particles that have no potential */
+	size_t potential_count;
+	const struct touchstone_potential *potentials;
+	size_t virtual_wall_count;
+	const struct touchstone_virtual_wall *virtual_walls; /* normals of any length above 0 */
 	double acceleration[3];
 	enum scene_positions positions;
 	enum scene_velocities velocities;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/potential.h"
+
 static const uint32_t nobody = UINT32_MAX;
 
 static double clamped(double value, double low, double high)
@@ -131,11 +133,10 @@ static double chain_depth(const struct spatial_hash *hash, uint32_t link, uint32
 {
 	const struct touchstone_scene *scene = hash->scene;
 	const struct touchstone_particle *one = &scene->particles[particle];
-	double diameter = scene->species[one->species].diameter;
 	for (uint32_t next; link != nobody; link = next) {
 		const struct spatial_hash_entry *two = &hash->entry[link];
 		next = two->next;
-		double contact = (diameter + scene->species[two->species].diameter) / 2;
+		double contact = potential_core(scene, one->species, two->species);
 		double squared = distance_squared(scene, one->position, two->position);
 		if (squared >= contact * contact || link == particle) continue;
 		double depth = contact - sqrt(squared);

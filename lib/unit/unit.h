@@ -19,6 +19,10 @@ struct unit {
 	void (*state)(const struct touchstone_engine *, uint32_t particle, double position[3], double velocity[3]);
 	int (*separation)(const struct touchstone_engine *, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 					  double contact[TOUCHSTONE_MOST_TERMS]);
+	int (*pair_state)(const struct touchstone_engine *, uint32_t first, uint32_t second);
+	size_t (*captured)(const struct touchstone_engine *, uint32_t particle, struct touchstone_captured *, size_t room);
+	int (*side)(const struct touchstone_engine *, uint32_t particle, size_t wall);
+	void (*flux)(const struct touchstone_engine *, size_t wall, struct touchstone_flux flux[2]);
 	void (*explain)(const struct touchstone_engine *, void (*line)(void *, const char *), void *);
 	bool (*drop)(const char *method, const struct touchstone_drop *, size_t, struct touchstone_landing *,
 				 touchstone_bounce *, void *, char error[160]);

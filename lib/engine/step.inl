@@ -1,0 +1,76 @@
+/* Pairs within a step of their potential: what they may do next, and what happens at a step (2016 paper, section 3 and
+ * algorithm 3). Their state is what was tracked, never what their distance says. */
+
+/* Weighs the events of particle i with all that it has captured: leaving the innermost step they are within, or
+ * meeting the next one, or the core. */
+static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
+{
+	uint32_t count;
+	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
+	for (uint32_t k = 0; k < count; k++) {
+		uint32_t entry = captured[k].entry, state = captured[k].state;
+		const struct potential *potential = potential_between(engine, i, entry_particle(entry));
+		struct balls balls;
+		struct quadratic f;
+		const struct body *later = relative_state(engine, i, entry, balls.r, balls.v);
+		balls.contact = potential->step[state - 1].distance;
+		consider(engine, i, later, engine->method->ball_leave(&balls, &f), TOUCHSTONE_RELEASE, entry, plan);
+		bool innermost = state == potential->step_count;
+		if (innermost && !potential->hard) continue;
+		balls.contact = innermost ? potential->core : potential->step[state].distance;
+		consider(engine, i, later, engine->method->ball_ball(&balls, &f),
+				 innermost ? TOUCHSTONE_CONTACT : TOUCHSTONE_CAPTURE, entry, plan);
+	}
+}
+
+/* Takes what particle i has captured out of a list of entries it may meet; returns how many are left. */
+static size_t without_captured(const struct touchstone_engine *engine, uint32_t i, uint32_t *candidate,
+							   size_t candidates)
+{
+	uint32_t count;
+	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
+	for (uint32_t k = 0; k < count; k++) {
+		size_t found = 0;
+		while (found < candidates && candidate[found] != captured[k].entry) found++;
+		if (found < candidates) candidate[found] = candidate[--candidates];
+	}
+	return candidates;
+}
+
+/* What is taken from r.v at a step, over r.r: after it (r.v)^2 / r.r is less by `climb`, and its sign says in or out.
+ * Where the sign stays, the difference of the two is written so that nothing cancels; a step without height takes
+ * nothing. */
+static num step_kick(num rv, num rr, num climb, bool inwards)
+{
+	num zero = from_double(0);
+	if (!less(climb, zero) && !less(zero, climb)) return zero;
+	num after = root(sub(mul(rv, rv), mul(climb, rr)));
+	if (inwards) after = negated(after);
+	bool onwards = inwards ? less(rv, zero) : less(zero, rv);
+	return onwards ? divide(climb, add(rv, after)) : divide(sub(rv, after), rr);
+}
+
+/* Two particles are at a step of their potential, on their way in or out: they pass it, which changes their state and
+ * speeds them up or slows them down, or turn back if they are too slow to climb it. */
+static void meet_step(struct touchstone_engine *engine, uint32_t i, uint32_t entry, bool inwards)
+{
+	struct encounter encounter = bring_together(engine, i, entry);
+	const struct potential *potential = potential_between(engine, i, encounter.j);
+	uint32_t state = pairs_get(&engine->pairs, i, entry), passed = inwards ? state + 1 : state - 1;
+	const struct step *step = &potential->step[inwards ? state : state - 1];
+	num climb = inwards ? step->climb : negated(step->climb), zero = from_double(0), rv = encounter.rv;
+	bool passes = !less(zero, climb) || less(mul(climb, encounter.rr), mul(rv, rv));
+	struct touchstone_event event = {
+		.kind = !passes   ? TOUCHSTONE_BOUNCE
+				: inwards ? TOUCHSTONE_CAPTURE
+						  : TOUCHSTONE_RELEASE,
+		.before = (int)state,
+		.after = (int)(passes ? passed : state),
+	};
+	if (passes)
+		event.energy =
+			(passed ? potential->step[passed - 1].energy : 0) - (state ? potential->step[state - 1].energy : 0);
+	num kick = passes ? step_kick(rv, encounter.rr, climb, inwards) : mul(from_double(2), divide(rv, encounter.rr));
+	part(engine, &encounter, kick, &event, step->distance);
+	if (passes && !set_state(engine, potential, i, entry, state, passed)) out_of_memory(engine);
+}
