@@ -114,7 +114,7 @@ static void tell(struct touchstone_engine *engine, struct touchstone_event *even
 struct encounter {
 	uint32_t i, j, entry;
 	bool i_stalls, j_stalls;
-	num r[3], rr, rv;
+	num r[3], v[3], rr, rv;
 };
 
 /* Flies particle i and an entry to now. */
@@ -127,7 +127,7 @@ static inline struct encounter bring_together(struct touchstone_engine *engine, 
 	struct body *first = &engine->body[i], *second = &engine->body[j];
 	advance(engine, first, &engine->place[i], engine->now);
 	advance(engine, second, &engine->place[j], engine->now);
-	num *r = encounter.r, v[3], zero = from_double(0);
+	num *r = encounter.r, *v = encounter.v, zero = from_double(0);
 	r[1] = r[2] = v[1] = v[2] = zero;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		r[axis] = offset_between(engine, i, j, entry_image(entry, axis), axis);

@@ -85,9 +85,12 @@ static void wait_until(struct touchstone_engine *engine, double time)
 	engine->now = (struct moment){page, from_double(time - page)};
 }
 
-static bool crosses(const struct touchstone_engine *engine, uint32_t i)
+/* Looks for what a particle does next, though it has had no event. */
+static void look_again(struct touchstone_engine *engine, uint32_t i)
 {
-	return engine->itinerary[i].meets == TOUCHSTONE_CROSSING;
+	cast_shadow(engine, i);
+	predict(engine, i);
+	schedule(engine, i);
 }
 
 /* When the earliest entry of the agenda falls due. */
@@ -136,20 +139,22 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 		} else if (due(engine, &entry) > limits->time) {
 			wait_until(engine, limits->time);
 			break;
-		} else if (engine->itinerary[i].next != NEXT_IS_PHYSICAL || crosses(engine, i) || stale(engine, i)) {
+		} else if (engine->itinerary[i].next != NEXT_IS_PHYSICAL || stale(engine, i)) {
 			if (++looks > patience(engine)) break;
 			engine->lookups++;
 			heap_drop(agenda, engine);
 			if (engine->itinerary[i].next != NEXT_IS_PHYSICAL) {
 				cross(engine, i);
 			} else {
-				if (crosses(engine, i)) pass_virtual_wall(engine, i);
-				cast_shadow(engine, i);
-				predict(engine, i);
-				schedule(engine, i);
+				look_again(engine, i);
 			}
 		} else if (engine->events == last) {
 			break;
+		} else if (engine->itinerary[i].meets == TOUCHSTONE_CROSSING) {
+			if (++looks > patience(engine)) break;
+			heap_drop(agenda, engine);
+			pass_virtual_wall(engine, i);
+			look_again(engine, i);
 		} else {
 			looks = 0;
 			heap_drop(agenda, engine);
