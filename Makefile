@@ -2,6 +2,7 @@
 #
 #   make report            the papers' figures at quick size, as pages in build/report
 #   make test              all tests, also under sanitizers, and the digests of other compilers and optimisations
+#   make soak              10^9 answers of the correctly rounded finder against the exact oracle; QUESTIONS=1e7 for fewer
 #   make CC=clang          another compiler               make BUILD=build/other   another place
 #   make clean, make format
 
@@ -14,14 +15,14 @@ CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-er
 CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -DTOUCHSTONE_CASES='"$(CURDIR)/cases"' -MMD -MP
 LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lmpfr -lgmp -lm
 
-sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*')
+sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 LIBRARY  := $(call objects,$(call sources,lib))
 PARTS    := $(call objects,$(filter-out $(MAIN),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
 
-.PHONY: all report test check sanitize digests format clean
+.PHONY: all report test check soak sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -44,6 +45,9 @@ check: $(BUILD)/touchstone $(TESTS)
 	@printf '%s\n' $(TESTS) | OMP_WAIT_POLICY=passive xargs -P $(CORES) -n 1 sh -c \
 		'if "$$0" >"$$0.log" 2>&1 </dev/null; then told=0; else told=1; fi; \
 		echo "== $$0"; cat "$$0.log"; exit $$told'
+
+soak: $(BUILD)/verify/soak/rounded_soak
+	$< $(QUESTIONS)
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
 sanitize:
@@ -95,6 +99,10 @@ $(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
+
+$(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
+	@mkdir -p $(@D)
+	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)
 
 format:
 	clang-format -i $$(git ls-files '*.c' '*.h' '*.inl')

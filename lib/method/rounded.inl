@@ -9,7 +9,8 @@
  * in itself.
  *
  * Bound: half a unit in the last place; no event missed, none invented. A question with a number that is not finite is
- * answered by NaN. */
+ * answered by NaN. Attained wherever a time lies half way between two numbers:
+ *     half-space 0x1p-1074 -2 */
 
 #ifdef NUM_HAS_LANES
 #include "method/rounded_fast.inl"
