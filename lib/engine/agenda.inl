@@ -16,14 +16,15 @@ struct note {
 struct entry {
 	num time; /* since the page began */
 	struct note note;
-	uint32_t partner; /* as in struct appointment */
+	uint32_t partner; /* as in struct itinerary */
 	uint32_t kind;    /* 0: bookkeeping, which goes first; otherwise 1 + what the particle meets */
 };
 
 enum { PILE = 7 };
 
-struct block { /* one cache line */
-	uint32_t next, used;
+struct pile { /* one cache line */
+	uint32_t used;
+	uint32_t more; /* number of the block that goes on with it; 0: none */
 	struct note note[PILE];
 };
 
@@ -33,13 +34,14 @@ struct distant {
 };
 
 struct agenda {
-	double day;          /* length of a day */
-	double today;        /* number of the day that is open */
-	double horizon;      /* first day that the ring does not hold */
-	size_t days;         /* size of the ring, a power of two */
-	uint32_t *pile;      /* first block of each day of the ring; 0: none */
-	size_t piled;        /* entries in the ring */
-	struct block *block; /* the blocks; number 0 is never used */
+	double day;         /* length of a day */
+	double today;       /* number of the day that is open */
+	double horizon;     /* first day that the ring does not hold */
+	size_t days;        /* size of the ring, a power of two */
+	double per_day;     /* its reciprocal, exactly */
+	struct pile *pile;  /* the days of the ring */
+	size_t piled;       /* entries in the ring */
+	struct pile *block; /* what does not fit into a day's own pile; number 0 is never used */
 	uint32_t blocks, block_room, spare;
 	struct entry *heap; /* the day that is open */
 	size_t size, heap_room;
@@ -80,8 +82,10 @@ static void agenda_destroy(struct agenda *agenda)
 static bool agenda_create(struct agenda *agenda, double day, size_t days, double page, double offset)
 {
 	double today = floor(page / day) + floor(offset / day);
-	*agenda = (struct agenda){.day = day, .days = days, .today = today, .horizon = today + (double)days};
-	agenda->pile = calloc(days, sizeof *agenda->pile);
+	*agenda =
+		(struct agenda){.day = day, .per_day = 1 / day, .days = days, .today = today, .horizon = today + (double)days};
+	agenda->pile = aligned_alloc(64, days * sizeof *agenda->pile);
+	if (agenda->pile) memset(agenda->pile, 0, days * sizeof *agenda->pile);
 	return agenda->pile;
 }
 
@@ -91,37 +95,38 @@ static size_t agenda_memory(const struct agenda *agenda)
 		   agenda->heap_room * sizeof *agenda->heap + agenda->distant_room * sizeof *agenda->distant;
 }
 
-/* Takes a free block to stand before `next`; 0 when there is no memory. */
-static uint32_t block_take(struct agenda *agenda, uint32_t next)
+/* Makes room in a full pile by moving what it holds to a block; false when there is no memory. */
+static bool pile_move(struct agenda *agenda, struct pile *pile)
 {
 	uint32_t number = agenda->spare;
 	if (number) {
-		agenda->spare = agenda->block[number].next;
+		agenda->spare = agenda->block[number].more;
 	} else {
 		size_t room = agenda->block_room;
 		if (agenda->blocks == 0) agenda->blocks = 1;
-		if (!agenda_grow((void **)&agenda->block, &room, agenda->blocks, sizeof *agenda->block)) return 0;
+		if (!agenda_grow((void **)&agenda->block, &room, agenda->blocks, sizeof *agenda->block)) return false;
 		agenda->block_room = (uint32_t)room;
 		number = agenda->blocks++;
 	}
-	agenda->block[number].next = next;
-	agenda->block[number].used = 0;
-	return number;
+	agenda->block[number] = *pile;
+	pile->more = number;
+	pile->used = 0;
+	return true;
+}
+
+static struct pile *agenda_pile(const struct agenda *agenda, double day)
+{
+	return &agenda->pile[(size_t)(int64_t)day & (agenda->days - 1)];
 }
 
 static void pile_add(struct agenda *agenda, double day, struct note note)
 {
-	uint32_t *pile = &agenda->pile[(size_t)(int64_t)day & (agenda->days - 1)];
-	if (!*pile || agenda->block[*pile].used == PILE) {
-		uint32_t number = block_take(agenda, *pile);
-		if (!number) {
-			agenda->exhausted = true;
-			return;
-		}
-		*pile = number;
+	struct pile *pile = agenda_pile(agenda, day);
+	if (pile->used == PILE && !pile_move(agenda, pile)) {
+		agenda->exhausted = true;
+		return;
 	}
-	struct block *block = &agenda->block[*pile];
-	block->note[block->used++] = note;
+	pile->note[pile->used++] = note;
 	agenda->piled++;
 }
 
@@ -167,14 +172,17 @@ static void heap_drop(struct agenda *agenda, const void *context)
 /* Enters an event of a particle, `entry.time` after the beginning of `page`. What is overdue is served at once. */
 static void agenda_push(struct agenda *agenda, const void *context, double page, struct entry entry)
 {
-	double day = floor(page / agenda->day) + floor(double_below(entry.time) / agenda->day);
+	double days = page * agenda->per_day, more = double_below(entry.time) * agenda->per_day;
+	if (!(days < 0x1p52 && more < 0x1p52)) {
+		agenda->beyond++;
+		return;
+	}
+	double day = days + (double)(int64_t)more; /* pages are whole days, and times are not negative */
 	if (day < agenda->today) {
 		entry.time = from_double(-1);
 		day = agenda->today;
 	}
-	if (!(day < 0x1p52))
-		agenda->beyond++;
-	else if (day == agenda->today)
+	if (day == agenda->today)
 		heap_add(agenda, context, entry);
 	else if (day < agenda->horizon)
 		pile_add(agenda, day, entry.note);
@@ -199,6 +207,16 @@ static void agenda_turn(struct agenda *agenda, const void *context, double today
 	agenda->distants = kept;
 }
 
+/* Enters what a pile holds and still holds true into the heap, and empties it. */
+static void pile_enter(struct agenda *agenda, const void *context, struct pile *pile)
+{
+	for (uint32_t i = 0; i < pile->used; i++)
+		if (note_holds(context, pile->note[i])) heap_add(agenda, context, entry_of(context, pile->note[i]));
+	agenda->piled -= pile->used;
+	agenda->sorted += pile->used;
+	pile->used = 0;
+}
+
 /* Opens the next day that has entries; false when there is none. `*turned` tells when a round ended on the way. */
 static bool agenda_open(struct agenda *agenda, const void *context, bool *turned)
 {
@@ -214,17 +232,13 @@ static bool agenda_open(struct agenda *agenda, const void *context, bool *turned
 			agenda_turn(agenda, context, agenda->today);
 			*turned = true;
 		}
-		uint32_t *pile = &agenda->pile[(size_t)(int64_t)agenda->today & (agenda->days - 1)];
-		while (*pile) {
-			uint32_t number = *pile;
-			for (uint32_t i = 0; i < agenda->block[number].used; i++) {
-				struct note note = agenda->block[number].note[i];
-				if (note_holds(context, note)) heap_add(agenda, context, entry_of(context, note));
-			}
-			agenda->piled -= agenda->block[number].used;
-			agenda->sorted += agenda->block[number].used;
-			*pile = agenda->block[number].next;
-			agenda->block[number].next = agenda->spare;
+		struct pile *pile = agenda_pile(agenda, agenda->today);
+		pile_enter(agenda, context, pile);
+		while (pile->more) {
+			uint32_t number = pile->more;
+			pile_enter(agenda, context, &agenda->block[number]);
+			pile->more = agenda->block[number].more;
+			agenda->block[number].more = agenda->spare;
 			agenda->spare = number;
 		}
 		agenda->opened++;

@@ -7,11 +7,11 @@
 #include <immintrin.h>
 #endif
 
-static size_t (*choose_around(void))(const struct cells *, const uint16_t[3], uint32_t *);
+static cells_lister *choose_lister(void);
 
 bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], const int count[3], uint32_t capacity)
 {
-	*cells = (struct cells){.dimensions = dimensions, .capacity = capacity, .around = choose_around()};
+	*cells = (struct cells){.dimensions = dimensions, .capacity = capacity, .list_rows = choose_lister()};
 	size_t total = capacity;
 	for (int axis = 0; axis < 3; axis++) {
 		cells->periodic[axis] = periodic[axis];
@@ -90,75 +90,62 @@ void cells_remove(struct cells *cells, const uint16_t cell[3], uint32_t particle
 	show(cells, cell, particle, false);
 }
 
-/* Appends the entries in use among `length`, without a branch per entry. */
-static size_t gather(const uint32_t *entry, size_t length, uint32_t *list, size_t found)
+/* Without a branch per entry. */
+static size_t list_rows_any(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self,
+							uint32_t *list)
 {
-	for (size_t i = 0; i < length; i++) {
-		list[found] = entry[i];
-		found += entry[i] != entry_none;
-	}
-	return found;
-}
-
-typedef size_t gatherer(const uint32_t *entry, size_t length, uint32_t *list, size_t found);
-
-static inline __attribute__((always_inline)) size_t around(const struct cells *cells, const uint16_t cell[3],
-														   uint32_t *list, gatherer gather_row)
-{
-	const uint32_t *centre = cells->entry + cells_index(cells, cell);
 	size_t found = 0;
+	for (int row = 0; row < rows; row++)
+		for (size_t i = 0; i < length; i++) {
+			uint32_t entry = centre[offset[row] + (ptrdiff_t)i];
+			list[found] = entry;
+			found += entry != entry_none && entry != self;
+		}
+	for (size_t i = 0; i < 16; i++) list[found + i] = 0;
+	return found;
+}
+
+#ifdef __x86_64__
+/* Sixteen entries at a time: a row of three cells is usually one such step. */
+__attribute__((target("avx512f,popcnt,bmi,bmi2"))) static size_t
+list_rows_512(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self, uint32_t *list)
+{
+	const __m512i none = _mm512_set1_epi32((int)entry_none), own = _mm512_set1_epi32((int)self);
+	size_t found = 0;
+	for (int row = 0; row < rows; row++)
+		for (size_t i = 0; i < length; i += 16) {
+			__m512i some = _mm512_loadu_si512(centre + offset[row] + i);
+			__mmask16 inside = length - i < 16 ? (__mmask16)((1u << (length - i)) - 1) : 0xffff;
+			__mmask16 used = _mm512_mask_cmpneq_epu32_mask(inside, some, none);
+			used = _mm512_mask_cmpneq_epu32_mask(used, some, own);
+			_mm512_storeu_si512(list + found, _mm512_maskz_compress_epi32(used, some));
+			found += (unsigned)__builtin_popcount(used);
+		}
+	_mm512_storeu_si512(list + found, _mm512_setzero_si512());
+	return found;
+}
+#endif
+
+static cells_lister *choose_lister(void)
+{
+#ifdef __x86_64__
+	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("bmi2")) return list_rows_512;
+#endif
+	return list_rows_any;
+}
+
+size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t self,
+					uint32_t *list)
+{
+	const uint32_t *face = cells->entry + cells_index(cells, cell) + side * (ptrdiff_t)cells->stride[axis];
+	size_t capacity = cells->capacity;
+	ptrdiff_t offset[9];
+	if (axis == 0) { /* single cells of every row */
+		for (int row = 0; row < cells->rows; row++) offset[row] = cells->row[row] + (ptrdiff_t)capacity;
+		return cells->list_rows(face, offset, cells->rows, capacity, self, list);
+	}
+	int rows = 0;
 	for (int row = 0; row < cells->rows; row++)
-		found = gather_row(centre + cells->row[row], 3 * (size_t)cells->capacity, list, found);
-	return found;
-}
-
-static size_t around_any(const struct cells *cells, const uint16_t cell[3], uint32_t *list)
-{
-	return around(cells, cell, list, gather);
-}
-
-#ifdef __x86_64__
-/* Sixteen entries at a time: a row of three cells is usually one such step. Gains about a tenth of a run's time. */
-__attribute__((target("avx512f,popcnt"))) static inline size_t gather_512(const uint32_t *entry, size_t length,
-																		  uint32_t *list, size_t found)
-{
-	for (size_t i = 0; i < length; i += 16) {
-		__m512i some = _mm512_loadu_si512(entry + i);
-		__mmask16 inside = length - i < 16 ? (__mmask16)((1u << (length - i)) - 1) : (__mmask16)0xffff;
-		__mmask16 used = _mm512_mask_cmpneq_epu32_mask(inside, some, _mm512_set1_epi32(-1));
-		_mm512_storeu_si512(list + found, _mm512_maskz_compress_epi32(used, some));
-		found += (size_t)__builtin_popcount(used);
-	}
-	return found;
-}
-
-__attribute__((target("avx512f,popcnt"))) static size_t around_512(const struct cells *cells, const uint16_t cell[3],
-																   uint32_t *list)
-{
-	return around(cells, cell, list, gather_512);
-}
-#endif
-
-static size_t (*choose_around(void))(const struct cells *, const uint16_t[3], uint32_t *)
-{
-#ifdef __x86_64__
-	if (__builtin_cpu_supports("avx512f")) return around_512;
-#endif
-	return around_any;
-}
-
-size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t *list)
-{
-	const uint32_t *centre = cells->entry + cells_index(cells, cell);
-	const uint32_t *face = centre + side * (ptrdiff_t)cells->stride[axis];
-	size_t found = 0, capacity = cells->capacity;
-	for (int row = 0; row < cells->rows; row++) {
-		ptrdiff_t offset = cells->row[row] + (ptrdiff_t)cells->stride[0]; /* the middle cell of the row */
-		int y = cells->dimensions > 1 ? row % 3 - 1 : 0, z = row / 3 - 1;
-		if (axis == 0)
-			found = gather(face + offset, capacity, list, found);
-		else if ((axis == 1 && y == 0) || (axis == 2 && z == 0))
-			found = gather(face + offset - capacity, 3 * capacity, list, found);
-	}
-	return found;
+		if (axis == 1 ? row % 3 == 1 : row / 3 == 1) offset[rows++] = cells->row[row];
+	return cells->list_rows(face, offset, rows, 3 * capacity, self, list);
 }

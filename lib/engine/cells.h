@@ -27,6 +27,11 @@ static inline int entry_image(uint32_t entry, int axis)
 	return (int)(code & 1) - (int)(code >> 1);
 }
 
+/* Lists the entries in use, but for `self`, in so many rows of `length` entries each, which begin at `centre` + offset.
+ */
+typedef size_t cells_lister(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self,
+							uint32_t *list);
+
 struct cells {
 	int dimensions;
 	bool periodic[3];
@@ -37,7 +42,7 @@ struct cells {
 	size_t entries;
 	ptrdiff_t row[9]; /* offsets, in entries, of the rows of three cells around a cell */
 	int rows;
-	size_t (*around)(const struct cells *cells, const uint16_t cell[3], uint32_t *list); /* the fastest there is */
+	cells_lister *list_rows; /* the fastest there is */
 };
 
 /* Makes an empty grid; false when there is no memory for it. */
@@ -48,22 +53,35 @@ void cells_destroy(struct cells *cells);
 bool cells_insert(struct cells *cells, const uint16_t cell[3], uint32_t particle);
 void cells_remove(struct cells *cells, const uint16_t cell[3], uint32_t particle);
 
-/* Lists the entries of a cell and its neighbours, or only of the neighbours beyond one face (axis, side -1 or +1).
- * `list` has room for cells_most() entries and 16 more. Returns how many there are. */
-static inline size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t *list)
+static inline size_t cells_index(const struct cells *cells, const uint16_t cell[3])
 {
-	return cells->around(cells, cell, list);
+	return cell[0] * cells->stride[0] + cell[1] * cells->stride[1] + cell[2] * cells->stride[2];
 }
-size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t *list);
+
+/* Lists the entries of a cell and its neighbours, or only of the neighbours beyond one face (axis, side -1 or +1), but
+ * for the entry `self`.
+ * `list` has room for cells_most() entries and 32 more, and 16 times particle 0 after the last. Returns
+ * how many there are. */
+static inline size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t self, uint32_t *list)
+{
+	return cells->list_rows(cells->entry + cells_index(cells, cell), cells->row, cells->rows,
+							3 * (size_t)cells->capacity, self, list);
+}
+size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t self,
+					uint32_t *list);
 
 static inline size_t cells_most(const struct cells *cells)
 {
 	return (size_t)cells->rows * 3 * cells->capacity;
 }
 
-static inline size_t cells_index(const struct cells *cells, const uint16_t cell[3])
+/* Whether a search from this cell may see images. */
+static inline bool cells_at_border(const struct cells *cells, const uint16_t cell[3])
 {
-	return cell[0] * cells->stride[0] + cell[1] * cells->stride[1] + cell[2] * cells->stride[2];
+	bool at_border = false;
+	for (int axis = 0; axis < 3; axis++)
+		at_border |= cells->periodic[axis] & ((cell[axis] <= 1) | (cell[axis] >= cells->count[axis]));
+	return at_border;
 }
 
 #endif

@@ -60,16 +60,17 @@ static void record(struct touchstone_engine *engine, uint64_t rank)
  * anywhere. */
 static void count_stall(struct touchstone_engine *engine, uint32_t i, bool stalled)
 {
-	struct home *home = &engine->home[i];
-	home->stalls = stalled ? home->stalls + 1 : 0;
-	if (home->stalls < 256 + 4 * engine->count || engine->verdict != TOUCHSTONE_DONE) return;
+	struct itinerary *itinerary = &engine->itinerary[i];
+	itinerary->stalls = stalled ? itinerary->stalls + 1 : 0;
+	if (itinerary->stalls < 256 + 4 * engine->count || engine->verdict != TOUCHSTONE_DONE) return;
 	engine->verdict = TOUCHSTONE_COLLAPSED;
-	engine->blamed[0] = engine->blamed[1] = home->id;
-	const struct appointment *last = &engine->appointment[i];
-	if (home->meets == TOUCHSTONE_CONTACT) engine->blamed[1] = engine->home[entry_particle(last->partner)].id;
+	engine->blamed[0] = engine->blamed[1] = itinerary->id;
+	if (itinerary->meets == TOUCHSTONE_CONTACT)
+		engine->blamed[1] = engine->itinerary[entry_particle(itinerary->partner)].id;
 	snprintf(engine->reason, sizeof engine->reason, "%u events of particle %u (the last with %s %u) at t = %.17g",
-			 home->stalls, home->id, home->meets == TOUCHSTONE_CONTACT ? "particle" : "wall",
-			 home->meets == TOUCHSTONE_CONTACT ? engine->blamed[1] : last->partner, moment_double(engine->now));
+			 itinerary->stalls, itinerary->id, itinerary->meets == TOUCHSTONE_CONTACT ? "particle" : "wall",
+			 itinerary->meets == TOUCHSTONE_CONTACT ? engine->blamed[1] : itinerary->partner,
+			 moment_double(engine->now));
 }
 
 /* Whether a particle's last event was now, as far as the clock can tell: within two units in its last place. (A ball
@@ -97,8 +98,8 @@ static void tell(struct touchstone_engine *engine, enum touchstone_kind kind, ui
 {
 	struct touchstone_event event = {
 		.kind = kind,
-		.first = engine->home[i].id,
-		.second = kind == TOUCHSTONE_CONTACT ? engine->home[other].id : other,
+		.first = engine->itinerary[i].id,
+		.second = kind == TOUCHSTONE_CONTACT ? engine->itinerary[other].id : other,
 		.time = moment_double(engine->now),
 		.approach = to_double(approach),
 		.impulse = fabs(to_double(impulse)),
@@ -138,7 +139,7 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 	num kick = mul(add(one, from_double(restitution)), divide(rv, rr));
 	if (!is_finite(kick)) {
 		engine->verdict = TOUCHSTONE_DIVERGED;
-		engine->blamed[0] = engine->home[i].id, engine->blamed[1] = engine->home[j].id;
+		engine->blamed[0] = engine->itinerary[i].id, engine->blamed[1] = engine->itinerary[j].id;
 		snprintf(engine->reason, sizeof engine->reason,
 				 "the impulse between particles %u and %u is not finite, at t = %.17g", engine->blamed[0],
 				 engine->blamed[1], moment_double(engine->now));
@@ -155,7 +156,7 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 	to_second = mul(to_second, kick);
 	if (engine->observer) {
 		num mass = engine->mass[engine->place[i].species];
-		bool in_order = engine->home[i].id < engine->home[j].id;
+		bool in_order = engine->itinerary[i].id < engine->itinerary[j].id;
 		engine->touching[0] = in_order ? i : j, engine->touching[1] = in_order ? j : i;
 		for (int axis = 0; axis < engine->dimensions; axis++)
 			engine->touching_image[axis] = in_order ? entry_image(entry, axis) : -entry_image(entry, axis);
@@ -168,8 +169,8 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 	}
 	record(engine, rank_of(engine, i, entry, TOUCHSTONE_CONTACT));
 	engine->collisions++;
-	engine->appointment[i].changes++;
-	engine->appointment[j].changes++;
+	engine->itinerary[i].changes++;
+	engine->itinerary[j].changes++;
 	count_stall(engine, i, i_stalls);
 	count_stall(engine, j, j_stalls);
 }
@@ -193,6 +194,6 @@ static void rebound(struct touchstone_engine *engine, uint32_t i, uint32_t numbe
 	for (int axis = 0; axis < engine->dimensions; axis++)
 		body->velocity[axis] = sub(body->velocity[axis], mul(kick, wall->normal[axis]));
 	record(engine, rank_of(engine, i, number, TOUCHSTONE_WALL));
-	engine->appointment[i].changes++;
+	engine->itinerary[i].changes++;
 	count_stall(engine, i, stalled);
 }

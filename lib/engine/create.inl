@@ -23,8 +23,8 @@ static void engine_destroy(struct touchstone_engine *engine)
 	if (!engine) return;
 	cells_destroy(&engine->cells);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body,   engine->place, engine->appointment, engine->home,     engine->index_of,
-					 engine->radius, engine->mass,  engine->wall,        engine->candidate};
+	void *owned[] = {engine->body, engine->place, engine->itinerary,    engine->index_of,      engine->radius,
+					 engine->mass, engine->wall,  engine->candidate[0], engine->shadows.shadow};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -74,7 +74,8 @@ static void set_scales(struct touchstone_engine *engine, const struct touchstone
 	speed = fmax(sqrt(speed / (double)scene->particle_count), sqrt(pull * engine->largest));
 	int exponent = 1;
 	if (speed > 0) frexp(engine->largest / speed, &exponent);
-	engine->page_length = ldexp(1, exponent - 1);
+	engine->page_turn = engine->page_length = ldexp(1, exponent - 1);
+	engine->pages_per_time = 1 / engine->page_length;
 }
 
 /* A position as a place and the rest. */
@@ -143,11 +144,10 @@ static bool set_particles(struct touchstone_engine *engine, const struct touchst
 	engine->count = (uint32_t)count;
 	engine->body = aligned_alloc(64, (count * sizeof *engine->body + 63) / 64 * 64);
 	engine->place = calloc(count, sizeof *engine->place);
-	engine->appointment = calloc(count, sizeof *engine->appointment);
-	engine->home = calloc(count, sizeof *engine->home);
+	engine->itinerary = aligned_alloc(64, count * sizeof *engine->itinerary);
 	engine->index_of = malloc(count * sizeof *engine->index_of);
 	struct ordered *order = malloc(count * sizeof *order);
-	bool enough = engine->body && engine->place && engine->appointment && engine->home && engine->index_of && order;
+	bool enough = engine->body && engine->place && engine->itinerary && engine->index_of && order;
 	for (size_t id = 0; enough && id < count; id++) {
 		double cell[3] = {0};
 		for (int axis = 0; axis < engine->dimensions; axis++)
@@ -165,12 +165,21 @@ static bool set_particles(struct touchstone_engine *engine, const struct touchst
 		body->time = from_double(0);
 		body->page = 0;
 		engine->place[i].species = particle->species;
-		engine->home[i].id = id;
-		engine->home[i].meets = MEETS_NOTHING;
+		engine->itinerary[i] = (struct itinerary){.id = id, .meets = MEETS_NOTHING, .time = from_double(0)};
 		engine->index_of[id] = i;
 	}
 	free(order);
 	return enough;
+}
+
+static bool set_sieve(struct touchstone_engine *engine)
+{
+	struct shadows *shadows = &engine->shadows;
+	bool straight = !engine->accelerated, alone = engine->count < 2;
+	if (engine->search != TOUCHSTONE_CELLS || engine->method->sieve == SIEVE_NOTHING || !straight || alone) return true;
+	shadows->machine = sieve_machine(0);
+	shadows->shadow = aligned_alloc(64, (engine->count * sizeof *shadows->shadow + 63) / 64 * 64);
+	return shadows->shadow;
 }
 
 static bool scene_makes_sense(const struct touchstone_scene *scene, char error[160])
@@ -212,9 +221,8 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	engine->digest = first_digest;
 	engine->now.time = from_double(0);
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
-	bool made = set_species_and_walls(engine, scene) && set_particles(engine, scene);
+	bool made = set_species_and_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
 	if (made) {
-		engine->pairs = choose_pairs(engine);
 		engine->slack = slack_needed(engine, 0, typical_speed(engine));
 		made = lay_out(engine);
 	}

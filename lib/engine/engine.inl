@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "engine/cells.h"
+#include "engine/sieve.h"
 #include "touchstone.h"
 #include "unit/unit.h"
 
@@ -46,14 +47,9 @@ extern const struct unit THIS_UNIT;
 #include "engine/state.inl"
 
 #include "engine/motion.inl"
+#include "engine/shadow.inl"
 
 #include "engine/search.inl"
-
-#ifdef NUM_HAS_LANES
-#include "engine/pairs_vector.inl"
-#else
-#include "engine/pairs_single.inl"
-#endif
 
 #include "engine/collide.inl"
 #include "engine/layout.inl"
@@ -66,7 +62,7 @@ extern const struct unit THIS_UNIT;
 
 #include "finder/ask.inl"
 
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 #include "finder/ask_vector.inl"
 #else
 #include "finder/ask_single.inl"

@@ -2,8 +2,8 @@
 
 static size_t engine_memory(const struct touchstone_engine *engine)
 {
-	size_t each = sizeof *engine->body + sizeof *engine->place + sizeof *engine->appointment + sizeof *engine->home +
-				  sizeof *engine->index_of;
+	size_t each = sizeof *engine->body + sizeof *engine->place + sizeof *engine->itinerary + sizeof *engine->index_of +
+				  (engine->shadows.shadow ? sizeof *engine->shadows.shadow : 0);
 	return sizeof *engine + engine->count * each + agenda_memory(&engine->agenda) +
 		   engine->cells.entries * sizeof *engine->cells.entry;
 }

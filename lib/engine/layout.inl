@@ -10,17 +10,6 @@ static double slack_needed(const struct touchstone_engine *engine, double clock,
 	return 0x1p-14 * engine->largest + 16 * roundoff * (extent * (1 + extent / engine->largest) + 8 * drift * speed);
 }
 
-static double typical_speed(const struct touchstone_engine *engine)
-{
-	double sum = 0;
-	for (uint32_t i = 0; i < engine->count; i++)
-		for (int axis = 0; axis < engine->dimensions; axis++) {
-			double speed = to_double(engine->body[i].velocity[axis]);
-			sum += speed * speed;
-		}
-	return sqrt(sum / engine->count);
-}
-
 /* Coordinate of a particle now, in the image of the box it is in. */
 static double coordinate_now(const struct touchstone_engine *engine, uint32_t i, int axis)
 {
@@ -42,7 +31,7 @@ static uint16_t cell_of(const struct touchstone_engine *engine, double coordinat
 static bool fill_cells(struct touchstone_engine *engine)
 {
 	for (uint32_t i = 0; i < engine->count; i++)
-		if (!cells_insert(&engine->cells, engine->home[i].cell, i)) return false;
+		if (!cells_insert(&engine->cells, engine->itinerary[i].cell, i)) return false;
 	return true;
 }
 
@@ -51,11 +40,13 @@ static bool make_cells(struct touchstone_engine *engine, const int count[3], uin
 {
 	for (;; capacity *= 2) {
 		cells_destroy(&engine->cells);
-		free(engine->candidate);
-		engine->candidate = NULL;
+		free(engine->candidate[0]);
+		engine->candidate[0] = NULL;
 		if (!cells_create(&engine->cells, engine->dimensions, engine->periodic, count, capacity)) return false;
-		engine->candidate = malloc((cells_most(&engine->cells) + 16) * sizeof *engine->candidate);
-		if (!engine->candidate) return false;
+		size_t most = cells_most(&engine->cells) + 32;
+		engine->candidate[0] = malloc(2 * most * sizeof *engine->candidate[0]);
+		if (!engine->candidate[0]) return false;
+		engine->candidate[1] = engine->candidate[0] + most;
 		if (fill_cells(engine)) return true;
 	}
 }
@@ -89,7 +80,7 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 				engine->place[i].index[axis] -= (int32_t)(boxes * engine->places[axis]);
 				coordinate -= boxes * box;
 			}
-			engine->home[i].cell[axis] = cell_of(engine, coordinate, axis);
+			engine->itinerary[i].cell[axis] = cell_of(engine, coordinate, axis);
 		}
 	}
 	return make_cells(engine, count, 4);
@@ -105,15 +96,15 @@ static int compare_doubles(const void *a, const void *b)
 static double day_length(const struct touchstone_engine *engine)
 {
 	enum { SAMPLE = 1024 };
-	static const double entries_per_day = 12;
+	static const double entries_per_day = 9;
 	double wait[SAMPLE], now = moment_double(engine->now);
 	uint32_t found = 0, stride = engine->count / SAMPLE + 1;
 	for (uint32_t i = 0; i < engine->count; i += stride) {
-		const struct appointment *appointment = &engine->appointment[i];
+		const struct itinerary *itinerary = &engine->itinerary[i];
 		uint8_t next;
 		double page = 0, key = leaving(engine, i, &page, &next), soonest = page + key - now;
-		if (engine->home[i].meets != MEETS_NOTHING)
-			soonest = fmin(soonest, appointment->page + to_double(appointment->time) - now);
+		if (engine->itinerary[i].meets != MEETS_NOTHING)
+			soonest = fmin(soonest, itinerary->page + to_double(itinerary->time) - now);
 		if (soonest > 0 && soonest < INFINITY) wait[found++] = soonest;
 	}
 	double day = fmin(engine->page_length, 1);
@@ -131,7 +122,7 @@ static double day_length(const struct touchstone_engine *engine)
 static bool lay_out_agenda(struct touchstone_engine *engine, double day)
 {
 	size_t days = 64;
-	while (days < engine->count / 2) days *= 2;
+	while (days < engine->count / 4) days *= 2;
 	agenda_destroy(&engine->agenda);
 	if (!agenda_create(&engine->agenda, day, days, engine->now.page, to_double(engine->now.time))) return false;
 	for (uint32_t i = 0; i < engine->count; i++) schedule(engine, i);
@@ -142,6 +133,7 @@ static bool lay_out_agenda(struct touchstone_engine *engine, double day)
 static bool lay_out(struct touchstone_engine *engine)
 {
 	if (engine->count > 1 && !lay_out_cells(engine)) return false;
+	cast_shadows(engine);
 	for (uint32_t i = 0; i < engine->count; i++) predict(engine, i);
 	return lay_out_agenda(engine, day_length(engine));
 }

@@ -65,6 +65,7 @@ static inline const struct body *relative_state(const struct touchstone_engine *
 	uint32_t j = entry_particle(entry);
 	const struct body *first = &engine->body[i], *second = &engine->body[j];
 	num wait = elapsed(second, first), zero = from_double(0);
+	r[1] = r[2] = v[1] = v[2] = zero;
 	bool second_flies = !less(wait, zero); /* the earlier one flies on to meet the later one's time */
 	const struct body *flies = second_flies ? second : first;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
@@ -79,7 +80,6 @@ static inline const struct body *relative_state(const struct touchstone_engine *
 		}
 		r[axis] = sub(offset_between(engine, i, j, entry_image(entry, axis), axis), path);
 	}
-	for (int axis = engine->dimensions; axis < 3; axis++) r[axis] = v[axis] = zero;
 	return second_flies ? first : second;
 }
 

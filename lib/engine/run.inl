@@ -9,25 +9,26 @@ static void out_of_memory(struct touchstone_engine *engine)
 /* A particle leaves its cell, and perhaps its image of the box: it is looked up in the new one. */
 static void cross(struct touchstone_engine *engine, uint32_t i)
 {
-	struct home *home = &engine->home[i];
-	int axis = (home->next - 1) / 2, side = (home->next - 1) % 2 ? 1 : -1;
-	int cell = home->cell[axis] + side, last = engine->cells.count[axis];
+	struct itinerary *itinerary = &engine->itinerary[i];
+	int axis = (itinerary->next - 1) / 2, side = (itinerary->next - 1) % 2 ? 1 : -1;
+	int cell = itinerary->cell[axis] + side, last = engine->cells.count[axis];
 	bool wraps = cell < 1 || cell > last;
-	cells_remove(&engine->cells, home->cell, i);
+	cells_remove(&engine->cells, itinerary->cell, i);
 	if (wraps) {
 		cell -= side * last;
 		engine->place[i].index[axis] -= side * engine->places[axis];
 	}
-	home->cell[axis] = (uint16_t)cell;
-	if (!cells_insert(&engine->cells, home->cell, i)) {
+	itinerary->cell[axis] = (uint16_t)cell;
+	if (!cells_insert(&engine->cells, itinerary->cell, i)) {
 		int count[3] = {engine->cells.count[0], engine->cells.count[1], engine->cells.count[2]};
 		if (!make_cells(engine, count, 2 * engine->cells.capacity)) {
 			out_of_memory(engine);
 			return;
 		}
 	}
+	cast_shadow(engine, i);
 	if (wraps) { /* images are counted from here on: whoever knew the old one asks again */
-		engine->appointment[i].changes++;
+		engine->itinerary[i].changes++;
 		predict(engine, i);
 	} else {
 		predict_beyond(engine, i, axis, side);
@@ -48,7 +49,7 @@ static void look_over(struct touchstone_engine *engine)
 		}
 	}
 	double per_day = (double)agenda->sorted / (double)agenda->opened;
-	bool crowded = per_day > 48, empty = per_day < 3 && agenda->day < engine->page_length;
+	bool crowded = per_day > 36, empty = per_day < 3 && agenda->day < engine->page_length;
 	if (crowded || empty) {
 		double day = fmin(agenda->day * (crowded ? 0.25 : 4), engine->page_length);
 		if (!lay_out_agenda(engine, day)) out_of_memory(engine);
@@ -57,59 +58,27 @@ static void look_over(struct touchstone_engine *engine)
 	}
 }
 
-/* Has the partner had another event since the appointment was made? Then its own search has replaced it. */
+/* Has the partner had another event since this one's itinerary was made? Then its own search has replaced it. */
 static bool stale(const struct touchstone_engine *engine, uint32_t i)
 {
-	const struct appointment *appointment = &engine->appointment[i];
-	return engine->home[i].meets == TOUCHSTONE_CONTACT &&
-		   engine->appointment[entry_particle(appointment->partner)].changes != appointment->partner_changes;
+	const struct itinerary *itinerary = &engine->itinerary[i];
+	return engine->itinerary[i].meets == TOUCHSTONE_CONTACT &&
+		   engine->itinerary[entry_particle(itinerary->partner)].changes != itinerary->partner_changes;
 }
 
 static void execute(struct touchstone_engine *engine, uint32_t i)
 {
-	uint32_t partner = engine->appointment[i].partner;
-	engine->now = (struct moment){engine->appointment[i].page, engine->appointment[i].time};
-	if (engine->home[i].meets == TOUCHSTONE_WALL) {
-		rebound(engine, i, partner);
-	} else {
+	uint32_t partner = engine->itinerary[i].partner, met[2] = {i, entry_particle(partner)};
+	int particles = engine->itinerary[i].meets == TOUCHSTONE_CONTACT ? 2 : 1;
+	engine->now = (struct moment){engine->itinerary[i].page, engine->itinerary[i].time};
+	keep_time(engine);
+	if (particles == 2)
 		collide(engine, i, partner);
-		predict(engine, entry_particle(partner));
-		schedule(engine, entry_particle(partner));
-	}
-	predict(engine, i);
-	schedule(engine, i);
-}
-
-static const uint32_t beyond_cache = 20000; /* particles whose bodies and cells fill a second-level cache */
-
-/* A day has been opened: fetches what its events will read, while earlier ones are worked on. A processor cannot guess
- * these addresses, and waiting for memory is most of the time of a large scene. */
-static void anticipate(const struct touchstone_engine *engine)
-{
-	const struct agenda *agenda = &engine->agenda;
-	uint32_t particle[2 * 64];
-	size_t particles = 0;
-	for (size_t e = 0; e < agenda->size && particles < 2 * 64 - 1; e++) {
-		const struct entry *entry = &agenda->heap[e];
-		particle[particles++] = entry->note.particle;
-		if (entry->kind == 1 + TOUCHSTONE_CONTACT) particle[particles++] = entry_particle(entry->partner);
-	}
-	for (size_t p = 0; p < particles; p++) {
-		__builtin_prefetch(&engine->home[particle[p]]);
-		__builtin_prefetch(&engine->appointment[particle[p]]);
-		__builtin_prefetch(&engine->body[particle[p]]);
-	}
-	for (size_t p = 0; p < particles; p++) {
-		const uint32_t *cell = engine->cells.entry + cells_index(&engine->cells, engine->home[particle[p]].cell);
-		for (int row = 0; row < engine->cells.rows; row++) __builtin_prefetch(cell + engine->cells.row[row]);
-	}
-	for (size_t p = 0; p < particles; p++) {
-		size_t neighbours = cells_around(&engine->cells, engine->home[particle[p]].cell, engine->candidate);
-		for (size_t n = 0; n < neighbours; n++) {
-			__builtin_prefetch(&engine->body[entry_particle(engine->candidate[n])]);
-			__builtin_prefetch(&engine->place[entry_particle(engine->candidate[n])]);
-		}
-	}
+	else
+		rebound(engine, i, partner);
+	for (int p = 0; p < particles; p++) cast_shadow(engine, met[p]);
+	predict_all(engine, met, particles);
+	for (int p = 0; p < particles; p++) schedule(engine, met[p]);
 }
 
 /* Takes the engine to a time at which nothing happens. */
@@ -123,8 +92,8 @@ static void wait_until(struct touchstone_engine *engine, double time)
 static double due(const struct touchstone_engine *engine, const struct entry *entry)
 {
 	if (entry->kind) {
-		const struct appointment *appointment = &engine->appointment[entry->note.particle];
-		return appointment->page + to_double(appointment->time);
+		const struct itinerary *itinerary = &engine->itinerary[entry->note.particle];
+		return itinerary->page + to_double(itinerary->time);
 	}
 	return engine->agenda.today * engine->agenda.day; /* of bookkeeping the day is near enough */
 }
@@ -156,7 +125,7 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 				look_over(engine);
 				continue;
 			}
-			if (engine->count > beyond_cache) anticipate(engine);
+			if (engine->shadows.now > shadows_last) cast_shadows(engine);
 		}
 		struct entry entry = agenda->heap[0];
 		uint32_t i = entry.note.particle;
@@ -165,13 +134,14 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 		} else if (due(engine, &entry) > limits->time) {
 			wait_until(engine, limits->time);
 			break;
-		} else if (engine->home[i].next != NEXT_IS_PHYSICAL || stale(engine, i)) {
+		} else if (engine->itinerary[i].next != NEXT_IS_PHYSICAL || stale(engine, i)) {
 			if (++looks > patience(engine)) break;
 			engine->lookups++;
 			heap_drop(agenda, engine);
-			if (engine->home[i].next != NEXT_IS_PHYSICAL) {
+			if (engine->itinerary[i].next != NEXT_IS_PHYSICAL) {
 				cross(engine, i);
 			} else {
+				cast_shadow(engine, i);
 				predict(engine, i);
 				schedule(engine, i);
 			}

@@ -3,9 +3,9 @@
 /* Ties in time are broken by kind, particles and image, never by where a structure happens to hold them. */
 static uint64_t rank_of(const struct touchstone_engine *engine, uint32_t i, uint32_t partner, uint8_t meets)
 {
-	uint64_t low = engine->home[i].id, high = partner, images = 0;
+	uint64_t low = engine->itinerary[i].id, high = partner, images = 0;
 	if (meets == TOUCHSTONE_CONTACT) {
-		high = engine->home[entry_particle(partner)].id;
+		high = engine->itinerary[entry_particle(partner)].id;
 		images = partner >> ENTRY_BITS;
 		if (high < low) { /* the same pair seen from the other side: +1 and -1 change places */
 			uint64_t other = low;
@@ -27,8 +27,8 @@ static void halt(struct touchstone_engine *engine, uint32_t i, const struct body
 {
 	bool pair = meets == TOUCHSTONE_CONTACT, negative = less(wait, from_double(0));
 	engine->verdict = negative || is_finite(later->velocity[0]) ? TOUCHSTONE_HALTED : TOUCHSTONE_DIVERGED;
-	engine->blamed[0] = engine->home[i].id;
-	engine->blamed[1] = pair ? engine->home[entry_particle(partner)].id : partner;
+	engine->blamed[0] = engine->itinerary[i].id;
+	engine->blamed[1] = pair ? engine->itinerary[entry_particle(partner)].id : partner;
 	snprintf(engine->reason, sizeof engine->reason, "the time from particle %u to %s %u is %s, at t = %.17g",
 			 engine->blamed[0], pair ? "particle" : "wall", engine->blamed[1], negative ? "negative" : "not a number",
 			 later->page + to_double(later->time));
@@ -60,9 +60,10 @@ static void consider(struct touchstone_engine *engine, uint32_t i, const struct 
 		consider_moment(engine, i, moment_on(engine, later->page, add(later->time, wait)), meets, partner, plan);
 }
 
-static void consider_pairs(struct touchstone_engine *engine, uint32_t i, size_t candidates, struct plan *plan)
+/* Weighs the meetings of particle i with so many entries. */
+static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const uint32_t *candidate, size_t candidates,
+						   struct plan *plan)
 {
-	const uint32_t *candidate = engine->candidate;
 	for (size_t k = 0; k < candidates; k++) {
 		struct balls balls;
 		struct quadratic f;
@@ -84,34 +85,49 @@ static void consider_walls(struct touchstone_engine *engine, uint32_t i, struct 
 
 static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct plan *plan)
 {
-	struct appointment *appointment = &engine->appointment[i];
-	engine->home[i].meets = plan->meets;
+	struct itinerary *itinerary = &engine->itinerary[i];
+	engine->itinerary[i].meets = plan->meets;
 	if (!plan->fresh) return;
-	appointment->time = plan->moment.time;
-	appointment->page = plan->moment.page;
-	appointment->partner = plan->partner;
+	itinerary->time = plan->moment.time;
+	itinerary->page = plan->moment.page;
+	itinerary->partner = plan->partner;
 	if (plan->meets == TOUCHSTONE_CONTACT)
-		appointment->partner_changes = engine->appointment[entry_particle(plan->partner)].changes;
+		itinerary->partner_changes = engine->itinerary[entry_particle(plan->partner)].changes;
 }
 
-/* Looks at everything a particle may meet. */
+/* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
+ * together: each step waits for the one before it, and not for the other particle's. */
+static void predict_all(struct touchstone_engine *engine, const uint32_t *particle, int particles)
+{
+	struct plan plan[2];
+	size_t candidates[2] = {0};
+	for (int p = 0; p < particles; p++) plan[p] = (struct plan){.meets = MEETS_NOTHING};
+	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
+	if (engine->count > 1) {
+		uint32_t *const *list = engine->candidate;
+		for (int p = 0; p < particles; p++)
+			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
+		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
+		for (int p = 0; p < particles; p++) consider_pairs(engine, particle[p], list[p], candidates[p], &plan[p]);
+	}
+	for (int p = 0; p < particles; p++) plan_keep(engine, particle[p], &plan[p]);
+}
+
 static void predict(struct touchstone_engine *engine, uint32_t i)
 {
-	struct plan plan = {.meets = MEETS_NOTHING};
-	if (engine->wall_count) consider_walls(engine, i, &plan);
-	if (engine->count > 1)
-		engine->pairs(engine, i, cells_around(&engine->cells, engine->home[i].cell, engine->candidate), &plan);
-	plan_keep(engine, i, &plan);
+	predict_all(engine, &i, 1);
 }
 
 /* A particle has come into a cell through one face: looks only at what lies beyond the opposite one. What it meant to
  * do stands unless something comes before it; if that is stale, its partner's own search has seen what replaced it. */
 static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axis, int side)
 {
-	const struct appointment *appointment = &engine->appointment[i];
-	struct plan plan = {{appointment->page, appointment->time}, appointment->partner, engine->home[i].meets, false};
-	size_t candidates = cells_beyond(&engine->cells, engine->home[i].cell, axis, side, engine->candidate);
-	engine->pairs(engine, i, candidates, &plan);
+	const struct itinerary *itinerary = &engine->itinerary[i];
+	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, engine->itinerary[i].meets, false};
+	uint32_t *list = engine->candidate[0];
+	size_t candidates = cells_beyond(&engine->cells, engine->itinerary[i].cell, axis, side, i, list);
+	candidates = sift(engine, i, list, candidates, &plan);
+	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);
 }
 
@@ -129,57 +145,65 @@ static double crossing_time(double gap, double speed, double acceleration, doubl
 	return gap_now <= 0 && speed + acceleration * passed > 0 ? passed : INFINITY;
 }
 
+/* How long after its last event a particle leaves its cell along an axis, and whether by the upper face. */
+static double leaving_along(const struct touchstone_engine *engine, uint32_t i, int axis, bool *upper)
+{
+	const struct body *body = &engine->body[i];
+	double side = engine->cell_side[axis], speed = to_double(body->velocity[axis]);
+	double position = to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
+	int cell = engine->itinerary[i].cell[axis];
+	bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
+	bool closed_low = ends && cell == 1, closed_high = ends && cell == engine->cells.count[axis];
+	double low = (cell - 1) * side - engine->box[axis] / 2, high = low + side;
+	if (!engine->accelerated) { /* without branches that a processor would have to guess */
+		*upper = speed > 0;
+		double time = ((cell - 1 + *upper) * side - engine->box[axis] / 2 - position) / speed;
+		bool never = (*upper ? closed_high : closed_low) | (speed == 0);
+		return never ? INFINITY : time;
+	}
+	double gravity = to_double(engine->acceleration[axis]), up = INFINITY, down = INFINITY,
+		   passed = moment_double(engine->now) - (body->page + to_double(body->time));
+	if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
+	if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
+	*upper = up < down;
+	return *upper ? up : down;
+}
+
 /* When, since its page began, a particle leaves its cell, and by which face; INFINITY if it never does. In double for
  * every arithmetic: the cells' slack pays for the rounding. */
 static double leaving(const struct touchstone_engine *engine, uint32_t i, double *page, uint8_t *next)
 {
-	const struct body *body = &engine->body[i];
-	const struct home *home = &engine->home[i];
 	if (!engine->cells.entry) return INFINITY;
-	double time = to_double(body->time), soonest = INFINITY;
+	double soonest = INFINITY;
+	int face = 0;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
-		double side = engine->cell_side[axis], speed = to_double(body->velocity[axis]);
-		double position = to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
-		double low = (home->cell[axis] - 1) * side - engine->box[axis] / 2, high = low + side;
-		bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
-		bool closed_low = ends && home->cell[axis] == 1,
-			 closed_high = ends && home->cell[axis] == engine->cells.count[axis];
-		double up = INFINITY, down = INFINITY;
-		if (!engine->accelerated) {
-			bool rises = speed > 0;
-			if (speed != 0 && !(rises ? closed_high : closed_low)) up = ((rises ? high : low) - position) / speed;
-			if (up < soonest) soonest = up, *next = (uint8_t)(1 + 2 * axis + rises);
-			continue;
-		}
-		double gravity = to_double(engine->acceleration[axis]),
-			   passed = moment_double(engine->now) - (body->page + time);
-		if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
-		if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
-		if (up < soonest) soonest = up, *next = (uint8_t)(2 + 2 * axis);
-		if (down < soonest) soonest = down, *next = (uint8_t)(1 + 2 * axis);
+		bool upper;
+		double time = leaving_along(engine, i, axis, &upper);
+		face = time < soonest ? 1 + 2 * axis + upper : face;
+		soonest = time < soonest ? time : soonest;
 	}
-	if (soonest == INFINITY) return INFINITY;
-	soonest += time;
-	double pages = soonest >= engine->page_length ? floor(soonest / engine->page_length) : 0;
-	if (pages > 0x1p52) return INFINITY;
-	if (pages > 0) soonest -= pages * engine->page_length;
-	*page = body->page + (pages > 0 ? pages * engine->page_length : 0);
-	return soonest;
+	*next = (uint8_t)face;
+	soonest += to_double(engine->body[i].time);
+	double pages = soonest * engine->pages_per_time;
+	if (!(pages < 0x1p52) || soonest == INFINITY) return INFINITY;
+	double turned = pages > 0 ? (double)(int64_t)pages * engine->page_turn : 0;
+	*page = engine->body[i].page + turned;
+	return soonest - turned;
 }
 
 static bool note_holds(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	return engine->appointment[note.particle].stamp == note.stamp;
+	return engine->itinerary[note.particle].stamp == note.stamp;
 }
 
 static struct entry entry_of(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	const struct home *home = &engine->home[note.particle];
-	if (home->next != NEXT_IS_PHYSICAL) return (struct entry){.time = from_double(home->leaves), .note = note};
-	const struct appointment *appointment = &engine->appointment[note.particle];
-	return (struct entry){appointment->time, note, appointment->partner, UINT32_C(1) + home->meets};
+	const struct itinerary *itinerary = &engine->itinerary[note.particle];
+	if (itinerary->next != NEXT_IS_PHYSICAL)
+		return (struct entry){.time = from_double(itinerary->leaves), .note = note};
+	return (struct entry){itinerary->time, note, itinerary->partner, UINT32_C(1) + itinerary->meets};
 }
 
 static bool entry_first(const void *context, const struct entry *a, const struct entry *b)
@@ -191,21 +215,41 @@ static bool entry_first(const void *context, const struct entry *a, const struct
 		   rank_of(context, b->note.particle, b->partner, (uint8_t)(b->kind - 1));
 }
 
+/* Does a straight flight end inside the cell it is in? Then no face is passed before, and when is no matter. */
+static bool stays(const struct touchstone_engine *engine, uint32_t i, double flight)
+{
+	const struct body *body = &engine->body[i];
+	const struct place *place = &engine->place[i];
+	if (engine->accelerated) return false;
+	bool inside = true;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		double place_at = place->index[axis] * engine->place_width[axis] + engine->box[axis] / 2;
+		double end = to_double(body->position[axis]) + place_at + to_double(body->velocity[axis]) * flight;
+		double beyond = end - (engine->itinerary[i].cell[axis] - 1) * engine->cell_side[axis];
+		inside &= (beyond > 0) & (beyond < engine->cell_side[axis]);
+	}
+	return inside;
+}
+
 /* Puts the next thing that happens to a particle on the agenda. What was there for it no longer holds. */
 static void schedule(struct touchstone_engine *engine, uint32_t i)
 {
-	struct appointment *appointment = &engine->appointment[i];
-	struct home *home = &engine->home[i];
-	double page = 0;
-	bool meets = home->meets != MEETS_NOTHING;
-	appointment->stamp++;
-	home->leaves = leaving(engine, i, &page, &home->next);
-	if (meets && (home->leaves == INFINITY || appointment->page < page ||
-				  (appointment->page == page && double_below(appointment->time) <= home->leaves))) {
-		page = appointment->page;
-		home->next = NEXT_IS_PHYSICAL;
-	} else if (home->leaves == INFINITY) {
-		return;
+	struct itinerary *itinerary = &engine->itinerary[i];
+	double page = itinerary->page, time = double_below(itinerary->time);
+	bool meets = itinerary->meets != MEETS_NOTHING;
+	itinerary->stamp++;
+	itinerary->next = NEXT_IS_PHYSICAL;
+	if (!meets || !stays(engine, i, (page - engine->body[i].page) + (time - to_double(engine->body[i].time)))) {
+		double leaves_page = 0;
+		uint8_t face;
+		itinerary->leaves = leaving(engine, i, &leaves_page, &face);
+		bool leaves = itinerary->leaves < INFINITY;
+		if (leaves && (!meets || leaves_page < page || (leaves_page == page && itinerary->leaves < time))) {
+			itinerary->next = face;
+			page = leaves_page;
+		} else if (!meets) {
+			return;
+		}
 	}
-	agenda_push(&engine->agenda, engine, page, entry_of(engine, (struct note){i, appointment->stamp}));
+	agenda_push(&engine->agenda, engine, page, entry_of(engine, (struct note){i, itinerary->stamp}));
 }

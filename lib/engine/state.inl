@@ -16,26 +16,23 @@ struct place {
 	uint32_t species;
 };
 
-/* The next physical event of a particle, as far as it knows. */
-struct appointment {
-	num time;
+enum { MEETS_NOTHING = 255 };
+enum { NEXT_IS_PHYSICAL = 0 }; /* otherwise 1 + 2 axis + (side > 0): a cell is left that way */
+
+/* Where a particle is and what comes next for it, as far as it knows: one cache line in binary64. */
+struct itinerary {
+	_Alignas(64) num time; /* of its next physical event */
 	double page;
+	double leaves;            /* its cell, if that comes first: since the page began */
 	uint32_t partner;         /* entry of the other particle, or number of the wall */
 	uint32_t partner_changes; /* of the other, when this was found: if it has had more, this is no longer true */
 	uint32_t changes;         /* of this particle: its events, and its moves to another image */
 	uint32_t stamp;           /* of its valid note in the agenda */
-};
-
-enum { MEETS_NOTHING = 255 };
-enum { NEXT_IS_PHYSICAL = 0 }; /* otherwise 1 + 2 axis + (side > 0): a cell is left that way */
-
-struct home {
+	uint32_t id;              /* the particle's number in the scene */
+	uint32_t stalls;          /* events since time last moved for it */
 	uint16_t cell[3];
 	uint8_t meets; /* enum touchstone_kind, or MEETS_NOTHING */
 	uint8_t next;
-	uint32_t id;     /* the particle's number in the scene */
-	uint32_t stalls; /* events since time last moved for it */
-	double leaves;   /* its cell, if that comes next: since the page began */
 };
 
 struct moment {
@@ -53,15 +50,23 @@ struct plan {
 
 struct touchstone_engine;
 
-/* Weighs all meetings of particle i with the first `candidates` entries that the engine has listed. */
-typedef void pair_search(struct touchstone_engine *engine, uint32_t i, size_t candidates, struct plan *plan);
-
 struct wall {
 	num position[3]; /* from the middle of its place, like a body's */
 	int32_t index[3];
 	num normal[3];
 	num acceleration; /* along the normal */
 	struct touchstone_restitution restitution;
+};
+
+/* The shadows of all particles, and the scale they are cast in: engine/shadow.inl. */
+struct shadows {
+	struct shadow *shadow; /* NULL: the sieve is not used */
+	const struct sieve_machine *machine;
+	struct sieve sieve;
+	double base_page, base_time;            /* when the shadows' time is 0 */
+	double per_length, per_time, per_speed; /* units, all powers of two */
+	double now;                             /* time of the search, since the base */
+	double age;                             /* of the oldest last event, at the base */
 };
 
 struct touchstone_engine {
@@ -73,8 +78,7 @@ struct touchstone_engine {
 	uint32_t count;
 	struct body *body;
 	struct place *place;
-	struct appointment *appointment;
-	struct home *home;
+	struct itinerary *itinerary;
 	uint32_t *index_of; /* of a particle's number in the scene */
 
 	/* the scene */
@@ -95,6 +99,8 @@ struct touchstone_engine {
 	double place_width[3]; /* the same; 0 on an axis that has no places */
 	int32_t places[3];     /* per box, on a periodic axis */
 	double page_length;    /* INFINITY: the page is never turned */
+	double pages_per_time; /* its reciprocal, exactly */
+	double page_turn;      /* the length, or 0 */
 
 	/* where to look */
 	enum touchstone_search search;
@@ -102,8 +108,8 @@ struct touchstone_engine {
 	double slack;                /* how much wider than `largest` a cell must be for rounding not to matter */
 	double cell_side[3];
 	struct cells cells;
-	uint32_t *candidate; /* entries that a search has listed */
-	pair_search *pairs;
+	uint32_t *candidate[2]; /* entries that a search has listed; two searches may be under way */
+	struct shadows shadows;
 	struct agenda agenda;
 
 	/* what has happened */

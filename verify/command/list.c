@@ -10,6 +10,8 @@
 #include <string.h>
 
 #include "command/cases.h"
+#include "family/family.h"
+#include "store/query_file.h"
 #include "store/scene_file.h"
 #include "touchstone.h"
 
@@ -81,6 +83,21 @@ static bool list_figures(const char *folder)
 	return true;
 }
 
+/* The shapes a family has, and where it comes from. */
+static bool list_families(const char *folder)
+{
+	(void)folder;
+	const struct family *family;
+	for (size_t f = 0; (family = family_at(f)); f++) {
+		print(family->name, family->about);
+		printf("  %-18s  %s;", "", family->origin == FAMILY_HARVESTED ? "harvested" : "hand-made");
+		for (int s = 0; s < TOUCHSTONE_SHAPES; s++)
+			if (family->shapes >> s & 1) printf(" %s", shape_name((enum touchstone_shape)s));
+		printf("\n");
+	}
+	return true;
+}
+
 static int is_scene(const struct dirent *entry)
 {
 	const char *ending = strrchr(entry->d_name, '.');
@@ -123,10 +140,8 @@ static const struct kind {
 	const char *name;
 	bool (*list)(const char *folder);
 } kinds[] = {
-	{"cases", list_cases},
-	{"methods", list_methods},
-	{"arithmetics", list_arithmetics},
-	{"figures", list_figures},
+	{"cases", list_cases},       {"methods", list_methods}, {"arithmetics", list_arithmetics},
+	{"families", list_families}, {"figures", list_figures},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -143,11 +158,12 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		wish->folder = argument;
 		return 0;
 	case ARGP_KEY_ARG:
-		if (wish->kind) refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, figures");
+		if (wish->kind)
+			refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures");
 		for (int k = 0; k < KINDS; k++)
 			if (strcmp(kinds[k].name, argument) == 0) wish->kind = &kinds[k];
 		if (!wish->kind)
-			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, figures", argument);
+			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures", argument);
 		return 0;
 	default:
 		return ARGP_ERR_UNKNOWN;
@@ -161,10 +177,9 @@ int command_list(int argc, char **argv)
 	static const struct argp argp = {
 		.options = options,
 		.parser = parse,
-		.args_doc = "[cases|methods|arithmetics|figures]",
+		.args_doc = "[cases|methods|arithmetics|families|figures]",
 		.doc = "Lists what there is, with one line each: scenes that `run` knows by name, methods and arithmetics, "
-			   "figures "
-			   "that `reproduce` makes.\vExample: touchstone list methods",
+			   "families of questions to finders, figures that `reproduce` makes.\vExample: touchstone list methods",
 	};
 	struct wish wish = {0};
 	argp_parse(&argp, argc, argv, 0, NULL, &wish);

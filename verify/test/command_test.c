@@ -1,6 +1,7 @@
 /* The command line, as a user meets it: what it says, where it says it, and its exit status. */
 #include <sys/stat.h>
 
+#include "family/family.h"
 #include "program.h"
 #include "result.h"
 #include "touchstone.h"
@@ -36,8 +37,9 @@ static void listings_are_complete(void **state)
 	(void)state;
 	struct said all = program_run("list"), methods = program_run("list methods"), cases = program_run("list cases");
 	struct said arithmetics = program_run("list arithmetics"), figures = program_run("list figures");
-	const char *const parts[] = {methods.out, cases.out, arithmetics.out, figures.out};
-	for (int p = 0; p < 4; p++) {
+	struct said families = program_run("list families");
+	const char *const parts[] = {methods.out, cases.out, arithmetics.out, families.out, figures.out};
+	for (int p = 0; p < 5; p++) {
 		assert_non_null(strstr(all.out, parts[p]));
 		char *rest, *copy = strdup(parts[p]);
 		for (char *line = strtok_r(copy, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
@@ -50,10 +52,13 @@ static void listings_are_complete(void **state)
 	const char *name;
 	for (size_t n = 0; (name = touchstone_method_name(n)); n++) assert_non_null(strstr(methods.out, name));
 	for (size_t n = 0; (name = touchstone_arithmetic_name(n)); n++) assert_non_null(strstr(arithmetics.out, name));
+	const struct family *family;
+	for (size_t n = 0; (family = family_at(n)); n++) assert_non_null(strstr(families.out, family->name));
+	assert_non_null(strstr(families.out, "harvested; ball-ball ball-plane half-space\n"));
 	assert_int_equal(program_lines(cases.out), folder_count("cases", ".yaml"));
 	assert_non_null(strstr(cases.out, "bouncing-ball"));
-	struct said *const said[] = {&all, &methods, &cases, &arithmetics, &figures};
-	for (int s = 0; s < 5; s++) {
+	struct said *const said[] = {&all, &methods, &cases, &arithmetics, &families, &figures};
+	for (int s = 0; s < 6; s++) {
 		assert_int_equal(said[s]->status, 0);
 		said_free(said[s]);
 	}
@@ -65,7 +70,7 @@ static void listings_are_complete(void **state)
 	assert_non_null(strstr(mixed.out, "Nothing to see"));
 	assert_non_null(strstr(mixed.err, "spoilt.yaml:1: "));
 	said_free(&mixed);
-	program_refused(program_run("list shapes"), "cases, methods, arithmetics, figures");
+	program_refused(program_run("list shapes"), "cases, methods, arithmetics, families, figures");
 	program_refused(program_run("list cases --cases %s/none", folder), "none: cannot be read");
 }
 

@@ -1,0 +1,105 @@
+/* What the sieve is told of the scene: shadows in units near the contact distance and the time in which a typical
+ * particle flies so far, with time counted from a base that follows the run. */
+
+/* Time from the shadows' base to a moment, in their unit. */
+static double since_base(const struct touchstone_engine *engine, double page, double time)
+{
+	const struct shadows *shadows = &engine->shadows;
+	return ((page - shadows->base_page) + (time - shadows->base_time)) * shadows->per_time;
+}
+
+/* Renews the shadow of a particle for the time of the search. */
+static void cast_shadow(struct touchstone_engine *engine, uint32_t i)
+{
+	struct shadows *shadows = &engine->shadows;
+	if (!shadows->shadow) return;
+	const struct body *body = &engine->body[i];
+	const struct place *place = &engine->place[i];
+	double flight = shadows->now - since_base(engine, body->page, to_double(body->time)), position[3], velocity[3];
+	for (int axis = 0; axis < 3; axis++) {
+		velocity[axis] = to_double(body->velocity[axis]) * shadows->per_speed;
+		position[axis] = to_double(body->position[axis]) + place->index[axis] * engine->place_width[axis];
+		position[axis] = position[axis] * shadows->per_length + velocity[axis] * flight;
+	}
+	double radius = to_double(engine->radius[place->species]) * shadows->per_length;
+	shadows->machine->cast(&shadows->shadow[i], position[0], position[1], position[2], shadows->now, velocity[0],
+						   velocity[1], velocity[2], radius);
+}
+
+/* The time of the search is that of the last event: no event of a pair is earlier, and none that is left is. */
+static void keep_time(struct touchstone_engine *engine)
+{
+	struct shadows *shadows = &engine->shadows;
+	struct sieve *sieve = &shadows->sieve;
+	double clock = engine->page_length < INFINITY ? engine->page_length : moment_double(engine->now);
+	shadows->now = since_base(engine, engine->now.page, to_double(engine->now.time));
+	sieve->now = sieve->span = (float)shadows->now;
+	sieve->age = (float)(shadows->age + shadows->now);
+	sieve->drift = (float)((sieve->roundoff + 0x1p-53) * 16 * (sieve->age + clock * shadows->per_time));
+}
+
+static const double shadows_last = 64; /* units of time: the error of a time in binary32 grows as long */
+
+static double typical_speed(const struct touchstone_engine *engine)
+{
+	double sum = 0;
+	for (uint32_t i = 0; i < engine->count; i++)
+		for (int axis = 0; axis < engine->dimensions; axis++) {
+			double speed = to_double(engine->body[i].velocity[axis]);
+			sum += speed * speed;
+		}
+	return sqrt(sum / engine->count);
+}
+
+static double power_of_two_below(double x)
+{
+	int exponent;
+	frexp(x, &exponent);
+	return ldexp(1, exponent - 1);
+}
+
+/* Begins anew from where the run is: base, units, and every shadow. */
+static void cast_shadows(struct touchstone_engine *engine)
+{
+	struct shadows *shadows = &engine->shadows;
+	if (!shadows->shadow) return;
+	double speed = typical_speed(engine);
+	shadows->base_page = engine->now.page;
+	shadows->base_time = to_double(engine->now.time);
+	shadows->per_length = 1 / power_of_two_below(engine->largest);
+	shadows->per_time = speed > 0 && speed < INFINITY ? power_of_two_below(speed) * shadows->per_length : 1;
+	shadows->per_speed = shadows->per_length / shadows->per_time;
+	shadows->now = shadows->age = 0;
+	for (uint32_t i = 0; i < engine->count; i++) {
+		const struct body *body = &engine->body[i];
+		shadows->age = fmax(shadows->age, -since_base(engine, body->page, to_double(body->time)));
+		cast_shadow(engine, i);
+	}
+	struct sieve *sieve = &shadows->sieve;
+	sieve->boxes = 0;
+	for (int axis = 0; axis < 3; axis++) {
+		sieve->box[axis] = engine->periodic[axis] ? (float)(engine->box[axis] * shadows->per_length) : 0;
+		sieve->boxes += sieve->box[axis];
+	}
+	sieve->roundoff = (float)ldexp(1, -engine->bits);
+	sieve->by_order = engine->method->sieve == SIEVE_ORDER;
+	keep_time(engine);
+}
+
+/* Of the first `candidates` entries listed, keeps those that particle i may meet before its plan. */
+static size_t sift(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates,
+				   const struct plan *plan)
+{
+	struct shadows *shadows = &engine->shadows;
+	if (!shadows->shadow) return candidates;
+	struct sieve *sieve = &shadows->sieve;
+	sieve->images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
+	sieve->latest = INFINITY;
+	if (sieve->by_order && plan->meets != MEETS_NOTHING) {
+		double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - shadows->now;
+		sieve->latest = (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->drift);
+	}
+	candidates = shadows->machine->pass(sieve, shadows->shadow, i, candidate, candidates);
+	for (size_t k = 0; k < candidates; k++) __builtin_prefetch(&engine->body[entry_particle(candidate[k])]);
+	return candidates;
+}

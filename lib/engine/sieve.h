@@ -1,0 +1,69 @@
+/* The sieve: which of many pairs may be the next to meet, found in binary32 with a proven bound on what that leaves
+ * out. It spares the working arithmetic nearly all of its work and changes no result: whatever may be the earliest
+ * meeting, by the working arithmetic's own rounded numbers, passes.
+ *
+ * Every particle casts a shadow: where it is and how it moves, rounded to binary32, in units of the scene's own scale.
+ * The bound, for a pair at the time of the search, with u = 2^-24, n the roundoff of the working arithmetic, and
+ * 1-norms (they are cheap and never less than the Euclidean ones):
+ *
+ *     S    sum of both speeds                    R    distance
+ *     h    error of a component of r: u (8 boxes + 8 |x_i| + 4 R + 12 S span) + S drift. Each position, speed and time
+ *          is rounded once (u of itself), the flight to now twice more, the difference and the image's shift twice;
+ *          |x_j| is at most |x_i| + R + S span and the shift; a time is at most `span`; `drift` is what the working
+ *          arithmetic's own flights since the last events err by, as a time
+ *     E_c  error of c = r.r - s^2:  q = 4 h (R + h) + (32 u + 64 n) (R^2 + s^2) + 64 n (S age)^2
+ *     E_b  error of b = r.v:        S (2 h + (12 u + 16 n) R + 16 n S age)
+ *     E_D  error of b^2 - a c:      2 S^2 q
+ *
+ * The terms in n bound the working arithmetic's polynomial, formed at the later of the two last events, when the
+ * distance was at most F = R + S age (coefficients within 4 n S^2, 6 n F S, 8 n (F^2 + s^2)), and shifted to now.
+ * First-order sums of these give half of the figures above or less; the other half pays for second orders, for the
+ * rounding of the bounds and for subnormal numbers. Whether products and sums are fused does not matter.
+ *
+ * A pair is left out when it surely parts (b > E_b: what it may have met is in the past), surely misses (D < -E_D), or
+ * surely meets later than some other pair surely meets. A comparison with a NaN leaves nothing out. */
+#ifndef TOUCHSTONE_SIEVE_H
+#define TOUCHSTONE_SIEVE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct shadow {              /* half a cache line */
+	float position[3], time; /* where it was at a time not later than the search's */
+	float velocity[3], radius;
+};
+
+struct sieve {
+	float box[3];   /* extent of the periodic axes */
+	float boxes;    /* their sum */
+	float now;      /* time of the search */
+	float span;     /* no time is larger: `now` itself */
+	float age;      /* no particle's last event is longer ago */
+	float roundoff; /* of the working arithmetic: n */
+	float drift;    /* error of its flights, as a time */
+	float latest;   /* meetings surely later are of no interest; INFINITY for none */
+	bool by_order;  /* whether pairs may be left out for another that meets earlier */
+	bool images;    /* whether any entry may be an image */
+};
+
+/* Goes through `count` entries (engine/cells.h) that particle `self`, whose own shadow is as of now, may meet, and
+ * leaves in `entry` those that may be met first. Returns how many. Behind the last entry stand 16 more that name
+ * particles which exist. */
+typedef size_t sieve_pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
+						  size_t count);
+
+/* Writes a shadow whole: what is written in pieces is slow to be read back whole. */
+typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
+						double vz, double radius);
+
+/* How a machine does it. Number 0 is the fastest there is on this one; the others are there to be compared: NULL after
+ * the last. */
+struct sieve_machine {
+	const char *name;
+	sieve_pass *pass;
+	sieve_cast *cast;
+};
+const struct sieve_machine *sieve_machine(size_t number);
+
+#endif
