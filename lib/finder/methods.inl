@@ -4,7 +4,7 @@
 /* What the sieve (engine/sieve.h) may leave out under a method, without changing what the method finds. */
 enum sieving {
 	SIEVE_NOTHING,
-	SIEVE_MISSES, /* pairs that surely do not meet; the times it finds may be far off */
+	SIEVE_MISSES, /* pairs that surely do not meet; the times it finds may be far off, or it may find none */
 	SIEVE_ORDER,  /* and those that surely meet later than another pair */
 };
 

@@ -2,7 +2,15 @@
  *
  * Source: sums and products with their errors carried along (Ogita, Rump and Oishi, "Accurate sum and dot product",
  * SIAM Journal on Scientific Computing 26(6), 2005: Dot2); where b or c cancels nearly all of what is summed, the terms
- * are sifted until nothing is left to cancel (their Sum-K, with as many passes as it takes). */
+ * are sifted until nothing is left to cancel (their Sum-K, with as many passes as it takes).
+ *
+ * Bound: at most 4 ulp, and no event missed or invented, wherever the discriminant is above 2^-k b^2 in magnitude, k =
+ * 40 (fewer where the precision is below 44 bits: compensated_bits()). With u half an ulp of 1: the discriminant,
+ * rounded, is u off and its root, rounded, 1.5 u; b, c and a, rounded, are u off each; the sum u; together 3.5 u, 4 ulp
+ * with the rounding of the quotient. What twice the precision leaves open adds 13 u^2 2^(k/2) and what cancels in b and
+ * c 2^-4 u, below 0.1 u in all. The largest error that 10^6 inputs of the test showed, 3.14 ulp: ball-leave
+ * 0x1.159e575eae8fap-1 0x1.ae7400a7b25cp-2 0x1.747dac982341ap-1 -0x1.d398d3b7a19d6p-1 -0x1.36a038c8f3de2p-1
+ * -0x1.bd78942184b8dp+0 1 */
 
 struct pair {
 	num high, low; /* high: the sum of the two, rounded */

@@ -9,9 +9,10 @@
  * in itself.
  *
  * Bound: half a unit in the last place; no event missed, none invented. A question with a number that is not finite is
- * answered by NaN. */
+ * answered by NaN. Attained wherever a time lies half way between two numbers:
+ *     half-space 0x1p-1074 -2 */
 
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 #include "method/rounded_fast.inl"
 #endif
 
@@ -69,7 +70,7 @@ static num rounded_balls_exactly(enum touchstone_shape shape, const struct balls
 
 static inline num rounded_ball_ball(const struct balls *balls, struct quadratic *f)
 {
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 	double fast = fast_balls(false, balls, f);
 	if (!isnan(fast)) return fast;
 #endif
@@ -78,7 +79,7 @@ static inline num rounded_ball_ball(const struct balls *balls, struct quadratic 
 
 static inline num rounded_ball_leave(const struct balls *balls, struct quadratic *f)
 {
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 	double fast = fast_balls(true, balls, f);
 	if (!isnan(fast)) return fast;
 #endif
@@ -87,7 +88,7 @@ static inline num rounded_ball_leave(const struct balls *balls, struct quadratic
 
 static inline num rounded_ball_plane(const struct flight *flight, struct quadratic *f)
 {
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 	double fast = fast_plane(flight, f);
 	if (!isnan(fast)) return fast;
 #endif
@@ -98,7 +99,7 @@ static inline num rounded_ball_plane(const struct flight *flight, struct quadrat
 /* In binary64 the one quotient of the stable rule is rounded correctly already. */
 static inline num rounded_half_space(const struct passage *passage, struct quadratic *f)
 {
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 	if (isfinite(passage->distance) && isfinite(passage->speed)) return stable_half_space(passage, f);
 #endif
 	const num numbers[] = {passage->distance, passage->speed};
