@@ -33,6 +33,13 @@ enum { ARITHMETICS = sizeof arithmetics / sizeof *arithmetics };
 static const struct figure_entry methods[] = {
 	{"stable", "2014 paper, algorithms 1 and 2: an event when bodies touch or overlap, and approach"},
 	{"naive", "2014 paper, eq. 12 and section 3: textbook roots, whatever the rounding made of them"},
+	{"guarded", "a simulator's guards: slow balls and balls that overlap have no event"},
+	{"compensated", "the stable rule over a, b, c and a discriminant formed in twice the precision"},
+	{"rounded", "the time of the stable rule, correctly rounded"},
+	{"numerical-recipes", "finder only: Press and others, eqs. 5.6.4 and 5.6.5"},
+	{"kahan", "finder only: Kahan's discriminant, by fused multiply-adds"},
+	{"sterbenz", "finder only: Sterbenz's scaling, then as kahan"},
+	{"textbook-epsilon", "finder only: two moving balls as in Ericson, section 5.5.5"},
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -67,7 +74,7 @@ static bool list_methods(const char *folder)
 {
 	(void)folder;
 	const char *name;
-	for (size_t n = 0; (name = touchstone_method_name(n)); n++) {
+	for (size_t n = 0; (name = touchstone_finder_name(n)); n++) {
 		const char *about = "";
 		for (int m = 0; m < METHODS; m++)
 			if (strcmp(methods[m].name, name) == 0) about = methods[m].about;
