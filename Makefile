@@ -13,7 +13,8 @@ OPTIMISE := -O3
 WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
 CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp -Wno-psabi $(EXTRA)
 CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -DTOUCHSTONE_CASES='"$(CURDIR)/cases"' -MMD -MP
-LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lmpfr -lgmp -lm
+# MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
+LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
 
 sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
@@ -21,6 +22,10 @@ MAIN     := verify/command/main.c
 LIBRARY  := $(call objects,$(call sources,lib))
 PARTS    := $(call objects,$(filter-out $(MAIN),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
+
+# Finders by others: the worked example, as C11 and as C++, and some that do everything wrong.
+PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
+	$(BUILD)/plugins/example_cxx.so
 
 .PHONY: all report test check soak sanitize digests format clean
 .DELETE_ON_ERROR:
@@ -82,12 +87,15 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/object/verify/command/reproduce.o: CPPFLAGS += \
+$(BUILD)/object/verify/command/reproduce.o $(BUILD)/object/verify/command/grade.o: CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
 # Templates and plot scripts are part of the program.
 $(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
 $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
+
+# The sieve's bound holds whether products and sums are fused or not; fused is faster.
+$(BUILD)/object/lib/engine/sieve.o: CFLAGS += -ffp-contract=fast
 
 # gcc 12 vectorises double -> float -> double in pairs and drops the rounding on the way.
 $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
@@ -95,10 +103,21 @@ $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 # gcc makes selections of vectors only where nobody minds floating-point traps; no value depends on it.
 $(BUILD)/object/lib/finder/batch.o: CFLAGS += -fno-trapping-math
 
-$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
+$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"'
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
+
+$(TESTS): | $(PLUGINS)
+
+# As a stranger would compile them: against lib/touchstone.h alone.
+$(BUILD)/plugins/%.so: verify/test/plugins/%.c lib/touchstone.h
+	@mkdir -p $(@D)
+	$(call say,plug-in $@) gcc -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
+
+$(BUILD)/plugins/%_cxx.so: verify/test/plugins/%.c lib/touchstone.h
+	@mkdir -p $(@D)
+	$(call say,plug-in $@) g++ -x c++ -std=c++11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
 
 $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)

@@ -79,6 +79,7 @@ struct touchstone_scene {
 	enum touchstone_form form;
 	enum touchstone_search search;
 	double cell;    /* side of a search cell; 0: chosen. Never changes a result */
+	double clock;   /* time at which everything begins, 0 or more: in the absolute form a late one costs precision */
 	unsigned grain; /* significant bits of the places' size, so that it is exact in every arithmetic that is to run
 					   this same scene; 0: as many as the engine's own arithmetic takes */
 };
@@ -267,12 +268,16 @@ size_t touchstone_exact_count(enum touchstone_shape shape, const double (*number
 
 /* ------------------------------------------------------------------ finders written by others */
 
-/* A plug-in is a shared object that exports one or more of these. Each returns the time until the event by the
- * stable rule, or infinity when there is none. Arguments are finite; r and v are relative position and velocity. */
+/* A plug-in is a shared object that exports one or more of these; nothing here defines them. Each returns the time
+ * until the event by the stable rule, or infinity when there is none. Arguments are finite; r and v are relative
+ * position and velocity. A plug-in is asked in a process of its own, one question at a time. */
 typedef double touchstone_ball_ball_finder(const double r[3], const double v[3], double contact_distance);
 typedef double touchstone_ball_leave_finder(const double r[3], const double v[3], double contact_distance);
 typedef double touchstone_ball_plane_finder(double distance, double speed, double acceleration,
 											double contact_distance);
+touchstone_ball_ball_finder touchstone_ball_ball;
+touchstone_ball_leave_finder touchstone_ball_leave;
+touchstone_ball_plane_finder touchstone_ball_plane;
 
 #ifdef __cplusplus
 }

@@ -23,6 +23,7 @@ static void write_row(FILE *stream, const json_t *cells)
 	json_array_foreach(cells, i, cell)
 	{
 		if (i > 0) fputc(',', stream);
+		if (json_is_object(cell)) cell = json_object_get(cell, "text");
 		if (json_is_string(cell)) write_text(stream, json_string_value(cell));
 		if (json_is_integer(cell)) fprintf(stream, "%" JSON_INTEGER_FORMAT, json_integer_value(cell));
 		if (json_is_real(cell)) fprintf(stream, "%.17g", json_real_value(cell));

@@ -203,6 +203,17 @@ void table_hex(struct result_table table, double value)
 	table_text(table, "%a", value);
 }
 
+void table_shaded(struct result_table table, unsigned level, const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	json_t *object = json_object();
+	set(table.result, object, "text", formatted(format, arguments));
+	set(table.result, object, "level", json_integer(level));
+	cell(table, object);
+	va_end(arguments);
+}
+
 /* ------------------------------------------------------------------ figures */
 
 static json_t *axis(struct result *result, const struct figure_axis *axis)

@@ -85,6 +85,12 @@ void table_number(struct result_table table, double value); /* shown with six di
 void table_count(struct result_table table, uint64_t count);
 void table_hex(struct result_table table, double value); /* shown as a hex float, to be copied */
 
+/* Text on a shade, for tables that are to be taken in at a glance: from level 0, nothing wrong, to TABLE_LEVELS - 1, as
+ * wrong as can be. What semicolons part is shown on lines of its own. */
+enum { TABLE_LEVELS = 5 };
+__attribute__((format(printf, 3, 4))) void table_shaded(struct result_table table, unsigned level, const char *format,
+														...);
+
 /* ------------------------------------------------------------------ figures */
 
 /* Kinds of figure, and the columns of numbers each needs (more are allowed, and go into the CSV):

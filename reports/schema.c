@@ -1,6 +1,7 @@
 #include "schema.h"
 
 #include "figure.h"
+#include "result.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -58,9 +59,17 @@ static bool is_number(const json_t *value)
 	return json_is_number(value) || json_is_null(value) || (json_is_string(value) && isinf(schema_double(value)));
 }
 
+static bool is_shaded(const json_t *value)
+{
+	const json_t *level = json_object_get(value, "level");
+	json_int_t shade = json_integer_value(level);
+	return json_is_string(json_object_get(value, "text")) && json_is_integer(level) && shade >= 0 &&
+		   shade < TABLE_LEVELS;
+}
+
 static bool is_cell(const json_t *value)
 {
-	return json_is_string(value) || is_number(value);
+	return json_is_string(value) || is_number(value) || is_shaded(value);
 }
 
 static bool check_texts(const struct place *place, const char *key, const json_t *array)

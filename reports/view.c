@@ -77,17 +77,39 @@ static void set_tally(json_t *view, const json_t *claims)
 
 /* ------------------------------------------------------------------ tables and figures */
 
-/* "number", "hex" (a hex float, to be copied whole) or "" for prose. */
+/* "number", "hex" (hex floats, to be copied whole, perhaps with a word before them), "shade" or "" for prose. */
 static const char *cell_class(const json_t *cell)
 {
+	if (json_is_object(cell)) return "shade";
 	const char *text = json_string_value(cell);
 	if (!text || isinf(schema_double(cell))) return "number";
-	return strncmp(text + (*text == '-'), "0x", 2) == 0 ? "hex" : "";
+	const char *word = strrchr(text, ' ');
+	word = word ? word + 1 : text;
+	return strncmp(word + (*word == '-'), "0x", 2) == 0 ? "hex" : "";
+}
+
+/* What semicolons part goes on lines of its own. */
+static void set_shaded(json_t *view, const json_t *cell)
+{
+	json_t *lines = json_array();
+	const char *text = text_at(cell, "text");
+	for (size_t length; *text; text += length + strspn(text + length, "; ")) {
+		length = strcspn(text, ";");
+		json_array_append_new(lines, json_stringn(text, length));
+	}
+	set_text(view, "text", "");
+	json_object_set_new(view, "lines", lines);
+	json_object_set_new(view, "class",
+						json_sprintf("shade level-%d", (int)json_integer_value(json_object_get(cell, "level"))));
 }
 
 static void set_cell_text(json_t *view, const json_t *cell)
 {
 	char text[DISPLAY_ROOM];
+	if (json_is_object(cell)) {
+		set_shaded(view, cell);
+		return;
+	}
 	if (json_is_integer(cell))
 		display_count(text, json_integer_value(cell));
 	else
@@ -137,7 +159,8 @@ static json_t *view_table(const json_t *table, const char *name, size_t index)
 			json_t *shown = json_object();
 			set_cell_text(shown, cell);
 			json_object_set_new(shown, "head", json_boolean(j == 0));
-			json_object_set(shown, "class", json_object_get(json_array_get(columns, j), "class"));
+			if (!json_is_object(cell))
+				json_object_set(shown, "class", json_object_get(json_array_get(columns, j), "class"));
 			json_array_append_new(cells, shown);
 		}
 		json_array_append_new(rows, json_pack("{s: o}", "cells", cells));

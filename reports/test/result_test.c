@@ -176,6 +176,8 @@ static void unsound_results_are_refused(void **state)
 	expect_noticed("claims/0/interval/1", "\"wide\"", "claims[0]: interval is not two numbers");
 	expect_noticed("tables/0/rows/3", "[1, 2]", "tables[0]: row 3 has 2 values, where there are 6 columns");
 	expect_noticed("tables/0/rows/3/1", "{}", "tables[0]: row 3, column 1");
+	expect_noticed("tables/0/rows/3/1", "{\"text\": \"1 missed\", \"level\": 5}", "tables[0]: row 3, column 1");
+	expect_noticed("tables/0/rows/3/1", "{\"text\": 1, \"level\": 0}", "tables[0]: row 3, column 1");
 	expect_noticed("figures/0/x", "{}", "figures[0]: ");
 	expect_noticed("figures/0/columns/2", "\"depth\"", "needs a column 'height'");
 	expect_noticed("figures/0/series/0/style", "\"bold\"", "series style is 'bold'");

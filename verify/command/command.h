@@ -18,6 +18,8 @@ enum {
 int command_list(int argc, char **argv);
 int command_run(int argc, char **argv);
 int command_reproduce(int argc, char **argv);
+int command_grade(int argc, char **argv);
+int command_replay(int argc, char **argv);
 int command_report(int argc, char **argv);
 
 /* The figures that `reproduce` makes, for `list`; the name after the last is NULL. */

@@ -17,6 +17,8 @@ static const struct command {
 	{"list", "cases, methods, arithmetics and figures, with one line each", command_list},
 	{"run", "one scene: what became of it, how fast, and its digest", command_run},
 	{"reproduce", "the papers' figures, stored as results", command_reproduce},
+	{"grade", "finders of event times, held against the exact answers", command_grade},
+	{"replay", "one input through every method and arithmetic, beside the exact answer", command_replay},
 	{"report", "pages from stored results", command_report},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };

@@ -13,8 +13,8 @@ static char *folder; /* for this program's files */
 static void every_command_helps(void **state)
 {
 	(void)state;
-	static const char *const commands[] = {"", "list ", "run ", "reproduce ", "report "};
-	for (int c = 0; c < 5; c++) {
+	static const char *const commands[] = {"", "list ", "run ", "reproduce ", "grade ", "replay ", "report "};
+	for (int c = 0; c < 7; c++) {
 		struct said help = program_run("%s--help", commands[c]), version = program_run("%s--version", commands[c]);
 		char usage[64];
 		snprintf(usage, sizeof usage, "Usage: touchstone %s[OPTION...]", commands[c]);
@@ -50,7 +50,7 @@ static void listings_are_complete(void **state)
 		free(copy);
 	}
 	const char *name;
-	for (size_t n = 0; (name = touchstone_method_name(n)); n++) assert_non_null(strstr(methods.out, name));
+	for (size_t n = 0; (name = touchstone_finder_name(n)); n++) assert_non_null(strstr(methods.out, name));
 	for (size_t n = 0; (name = touchstone_arithmetic_name(n)); n++) assert_non_null(strstr(arithmetics.out, name));
 	const struct family *family;
 	for (size_t n = 0; (family = family_at(n)); n++) assert_non_null(strstr(families.out, family->name));
@@ -101,7 +101,7 @@ static void bad_usage_is_one_line(void **state)
 	static const struct {
 		const char *arguments, *words;
 	} wrong[] = {
-		{"assay", "no command 'assay'; accepted: list, run, reproduce, report"},
+		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, replay, report"},
 		{"run", "no scene"},
 		{"run cradle column", "second scene"},
 		{"run nowhere.yaml", "nowhere.yaml: no such file"},
@@ -132,8 +132,9 @@ static void bad_usage_is_one_line(void **state)
 	};
 	for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++)
 		program_refused(program_run("%s", wrong[w].arguments), wrong[w].words);
-	static const char *const unknown[] = {"--frob", "list --frob", "run --frob", "reproduce --frob", "report --frob"};
-	for (int u = 0; u < 5; u++) {
+	static const char *const unknown[] = {"--frob",       "list --frob",   "run --frob",   "reproduce --frob",
+										  "grade --frob", "replay --frob", "report --frob"};
+	for (int u = 0; u < 7; u++) {
 		struct said said = program_run("%s", unknown[u]);
 		if (said.status != 2 || !strstr(said.err, "unrecognized option '--frob'"))
 			fail_msg("%s: status %d: %s", unknown[u], said.status, said.err);
