@@ -50,7 +50,7 @@ static const struct method methods[METHODS] = {
 
 static const struct method *find_method(const char *name, char error[160])
 {
-	char known[120] = "";
+	char known[112] = "";
 	for (int m = 0; m < METHODS; m++) {
 		if (strcmp(methods[m].name, name) == 0) return &methods[m];
 		snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", m ? ", " : "", methods[m].name);
