@@ -127,7 +127,7 @@ static void search_does_not_matter(void **state)
 	static const char *const methods[] = {"stable", "rounded", "compensated"}; /* in binary64 */
 	struct random_state random = random_seed(SEED);
 	print_message("seed %d\n", SEED);
-	for (int trial = 0; trial < 12; trial++) {
+	for (int trial = 0; trial < (brief ? 36 : 240); trial++) {
 		int dimensions = 1 + (int)(random_bits(&random) % 3);
 		struct scene_recipe recipe =
 			gas(dimensions, 20 + random_bits(&random) % 40, 0.1 + 0.5 * random_uniform(&random));
@@ -136,7 +136,8 @@ static void search_does_not_matter(void **state)
 			if (random_bits(&random) % 3 == 0) recipe.boundary[axis] = SCENE_WALLS;
 		if (random_bits(&random) % 3 == 0) recipe.acceleration[dimensions - 1] = -0.1 * random_uniform(&random);
 		if (random_bits(&random) % 2) recipe.species_count = 2, recipe.species = two_sizes, recipe.density *= 0.6;
-		const char *arithmetic = arithmetics[trial % 4], *method = trial % 4 ? "stable" : methods[trial / 4];
+		const char *arithmetic = trial < 12 ? arithmetics[trial % 4] : "binary64"; /* where it is quickest */
+		const char *method = trial % 4 ? "stable" : methods[trial / 4 % 3];
 		recipe.search = TOUCHSTONE_ALL;
 		struct touchstone_status all = run(&recipe, arithmetic, method, 1500, INFINITY);
 		recipe.search = TOUCHSTONE_CELLS;
