@@ -4,6 +4,8 @@
 static void cross(struct touchstone_engine *engine, uint32_t i)
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
+	uint8_t face;
+	if (engine->accelerated) itinerary->entered = leaving_wait(engine, i, &face); /* a parabola may pass a face twice */
 	int axis = (itinerary->next - 1) / 2, side = (itinerary->next - 1) % 2 ? 1 : -1;
 	int cell = itinerary->cell[axis] + side, last = engine->cells.count[axis];
 	bool wraps = cell < 1 || cell > last;
@@ -73,7 +75,10 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 		rebound(engine, i, partner);
 	else
 		meet_step(engine, i, partner, meets == TOUCHSTONE_CAPTURE);
-	for (int p = 0; p < particles; p++) cast_shadow(engine, met[p]);
+	for (int p = 0; p < particles; p++) {
+		engine->itinerary[met[p]].entered = 0;
+		cast_shadow(engine, met[p]);
+	}
 	predict_all(engine, met, particles);
 	for (int p = 0; p < particles; p++) schedule(engine, met[p]);
 }
