@@ -101,6 +101,9 @@ void scene_file_close(struct scene_file *file)
 		free(source->texts);
 		free(source->species);
 		free(source->walls);
+		for (size_t p = 0; p < file->recipe.potential_count; p++) free((void *)source->potentials[p].steps);
+		free(source->potentials);
+		free(source->virtual_walls);
 		free(source->particles);
 		free(source->start_path);
 		free(source);

@@ -22,6 +22,29 @@ static const cyaml_schema_field_t wall_fields[] = {
 	CYAML_FIELD_SEQUENCE("normal", WORD, struct wall_words, normal, &number, 1, 3),
 	CYAML_FIELD_STRING_PTR("restitution", WORD, struct wall_words, restitution, 0, CYAML_UNLIMITED), CYAML_FIELD_END};
 
+static const cyaml_schema_field_t virtual_wall_fields[] = {
+	CYAML_FIELD_SEQUENCE("point", WORD, struct wall_words, point, &number, 1, 3),
+	CYAML_FIELD_SEQUENCE("normal", WORD, struct wall_words, normal, &number, 1, 3), CYAML_FIELD_END};
+
+static const cyaml_schema_field_t step_fields[] = {
+	CYAML_FIELD_STRING_PTR("distance", WORD, struct step_words, distance, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("energy", WORD, struct step_words, energy, 0, CYAML_UNLIMITED), CYAML_FIELD_END};
+static const cyaml_schema_value_t step = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct step_words, step_fields)};
+
+static const cyaml_schema_field_t lennard_jones_fields[] = {
+	CYAML_FIELD_STRING_PTR("energy", WORD, struct lennard_jones_words, energy, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("length", WORD, struct lennard_jones_words, length, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("cutoff", WORD, struct lennard_jones_words, cutoff, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("steps", WORD, struct lennard_jones_words, steps, 0, CYAML_UNLIMITED), CYAML_FIELD_END};
+
+static const cyaml_schema_field_t potential_fields[] = {
+	CYAML_FIELD_SEQUENCE("between", WORD, struct potential_words, between, &number, 1, 2),
+	CYAML_FIELD_STRING_PTR("core", WORD, struct potential_words, core, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("restitution", WORD, struct potential_words, restitution, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_SEQUENCE("steps", WORD, struct potential_words, steps, &step, 1, 1000),
+	CYAML_FIELD_MAPPING_PTR("lennard_jones", WORD, struct potential_words, lennard_jones, lennard_jones_fields),
+	CYAML_FIELD_END};
+
 static const cyaml_schema_field_t species_fields[] = {
 	CYAML_FIELD_STRING_PTR("name", WORD, struct species_words, name, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("fraction", WORD, struct species_words, fraction, 0, CYAML_UNLIMITED),
@@ -43,6 +66,10 @@ static const cyaml_schema_field_t start_fields[] = {
 	CYAML_FIELD_STRING_PTR("temperature", WORD, struct start_words, temperature, 0, CYAML_UNLIMITED), CYAML_FIELD_END};
 
 static const cyaml_schema_value_t wall = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct wall_words, wall_fields)};
+static const cyaml_schema_value_t virtual_wall = {
+	CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct wall_words, virtual_wall_fields)};
+static const cyaml_schema_value_t potential = {
+	CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct potential_words, potential_fields)};
 static const cyaml_schema_value_t species = {
 	CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct species_words, species_fields)};
 static const cyaml_schema_value_t body = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct body_words, body_fields)};
@@ -60,6 +87,8 @@ static const cyaml_schema_field_t fields[] = {
 	CYAML_FIELD_SEQUENCE("species", WORD, struct scene_words, species, &species, 1, 10000),
 	CYAML_FIELD_SEQUENCE("bodies", WORD, struct scene_words, bodies, &body, 1, 10000),
 	CYAML_FIELD_STRING_PTR("restitution", WORD, struct scene_words, restitution, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_SEQUENCE("potentials", WORD, struct scene_words, potentials, &potential, 1, 1000),
+	CYAML_FIELD_SEQUENCE("virtual_walls", WORD, struct scene_words, virtual_walls, &virtual_wall, 1, 1000),
 	CYAML_FIELD_SEQUENCE("gravity", WORD, struct scene_words, gravity, &number, 1, 3),
 	CYAML_FIELD_MAPPING_PTR("start", WORD, struct scene_words, start, start_fields),
 	CYAML_FIELD_STRING_PTR("equilibrate", WORD, struct scene_words, equilibrate, 0, CYAML_UNLIMITED),

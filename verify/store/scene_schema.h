@@ -9,6 +9,21 @@ struct wall_words {
 	unsigned point_count, normal_count;
 };
 
+struct step_words {
+	char *distance, *energy;
+};
+
+struct lennard_jones_words {
+	char *energy, *length, *cutoff, *steps;
+};
+
+struct potential_words {
+	char **between, *core, *restitution;
+	struct step_words *steps;
+	struct lennard_jones_words *lennard_jones;
+	unsigned between_count, steps_count;
+};
+
 struct species_words {
 	char *name, *fraction, *diameter, *mass;
 };
@@ -28,12 +43,14 @@ struct scene_words {
 	char *equilibrate, *seed, *method, *arithmetic, *cell, *clock, *events, *time;
 	int *form, *search; /* enum touchstone_form, enum touchstone_search */
 	char **box, **gravity;
-	int *boundaries; /* enum scene_boundary */
-	struct wall_words *walls;
+	int *boundaries;                          /* enum scene_boundary */
+	struct wall_words *walls, *virtual_walls; /* virtual ones have no restitution */
+	struct potential_words *potentials;
 	struct species_words *species;
 	struct body_words *bodies;
 	struct start_words *start;
-	unsigned box_count, gravity_count, boundaries_count, walls_count, species_count, bodies_count;
+	unsigned box_count, gravity_count, boundaries_count, walls_count, species_count, bodies_count, potentials_count,
+		virtual_walls_count;
 };
 
 /* Of type pointer to struct scene_words. */

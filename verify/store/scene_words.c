@@ -5,79 +5,7 @@
 #include <string.h>
 
 #include "store/scene_source.h"
-
-/* What a number may be. */
-enum range { ANY, NOT_NEGATIVE, POSITIVE };
-
-/* An absent word leaves the value as it is, here and in the functions below. */
-static bool read_number(const struct scene_file *file, const char *key, const char *word, enum range range,
-						double *value, char *error)
-{
-	static const char *const accepted[] = {"a finite number", "a finite number, 0 or more", "a finite number above 0"};
-	if (!word) return true;
-	double number;
-	bool fits = text_number(word, &number) && (range == ANY || number > 0 || (range == NOT_NEGATIVE && number == 0));
-	char shown[TEXT_SHOWN];
-	if (!fits)
-		return scene_file_refuse(file, error, key, "'%s'; accepted: %s", text_shown(shown, word), accepted[range]);
-	*value = number;
-	return true;
-}
-
-static bool read_count(const struct scene_file *file, const char *key, const char *word, uint64_t least, uint64_t most,
-					   uint64_t *value, char *error)
-{
-	if (!word) return true;
-	uint64_t count;
-	char shown[TEXT_SHOWN];
-	if (!text_count(word, &count) || count < least || count > most)
-		return scene_file_refuse(file, error, key, "'%s'; accepted: a whole number, %llu to %llu",
-								 text_shown(shown, word), (unsigned long long)least, (unsigned long long)most);
-	*value = count;
-	return true;
-}
-
-/* A list with one entry for each dimension, or, where that makes sense, a single one for all. */
-static bool check_length(const struct scene_file *file, const char *key, unsigned count, bool one_for_all, char *error)
-{
-	int dimensions = file->recipe.dimensions;
-	if ((int)count == dimensions || (one_for_all && count == 1)) return true;
-	return scene_file_refuse(file, error, key, "%u entries; accepted: %d, the dimensions%s", count, dimensions,
-							 one_for_all ? ", or one for all" : "");
-}
-
-static bool read_vector(const struct scene_file *file, const char *key, char **words, unsigned count, bool one_for_all,
-						enum range range, double vector[3], char *error)
-{
-	if (!words) return true;
-	if (!check_length(file, key, count, one_for_all, error)) return false;
-	for (int axis = 0; axis < file->recipe.dimensions; axis++) {
-		unsigned entry = count == 1 ? 0 : (unsigned)axis;
-		char path[YAML_PATH];
-		snprintf(path, sizeof path, "%.90s[%u]", key, entry);
-		if (!read_number(file, path, words[entry], range, &vector[axis], error)) return false;
-	}
-	return true;
-}
-
-/* A number, or "viscoelastic" and a number. */
-static bool read_restitution(const struct scene_file *file, const char *key, const char *word,
-							 struct touchstone_restitution *restitution, char *error)
-{
-	static const char law[] = "viscoelastic ";
-	*restitution = (struct touchstone_restitution){TOUCHSTONE_CONSTANT, 1};
-	if (!word) return true;
-	bool viscoelastic = strncmp(word, law, strlen(law)) == 0;
-	if (viscoelastic) restitution->law = TOUCHSTONE_VISCOELASTIC;
-	double *coefficient = &restitution->coefficient;
-	bool fits = text_number(word + (viscoelastic ? strlen(law) : 0), coefficient) && *coefficient >= 0 &&
-				(viscoelastic || *coefficient <= 1);
-	char shown[TEXT_SHOWN];
-	return fits ||
-		   scene_file_refuse(file, error, key,
-							 "'%s'; accepted: a coefficient, 0 to 1, or 'viscoelastic BETA' with BETA 0 or more",
-							 text_shown(shown, word));
-}
+#include "store/scene_values.h"
 
 static bool read_walls(struct scene_file *file, char *error)
 {
@@ -94,9 +22,9 @@ static bool read_walls(struct scene_file *file, char *error)
 		if (!wall->point || !wall->normal)
 			return scene_file_refuse(file, error, key[wall->point ? 1 : 0],
 									 "not given; accepted: a list of numbers, one for each dimension");
-		if (!read_vector(file, key[0], wall->point, wall->point_count, false, ANY, walls[w].point, error) ||
-			!read_vector(file, key[1], wall->normal, wall->normal_count, false, ANY, walls[w].normal, error) ||
-			!read_restitution(file, key[2], wall->restitution, &walls[w].restitution, error))
+		if (!value_vector(file, key[0], wall->point, wall->point_count, false, VALUE_ANY, walls[w].point, error) ||
+			!value_vector(file, key[1], wall->normal, wall->normal_count, false, VALUE_ANY, walls[w].normal, error) ||
+			!value_restitution(file, key[2], wall->restitution, &walls[w].restitution, error))
 			return false;
 	}
 	file->recipe.walls = walls;
@@ -120,9 +48,9 @@ static bool read_species(struct scene_file *file, char *error)
 		snprintf(key[0], YAML_PATH, "species[%zu].fraction", s);
 		snprintf(key[1], YAML_PATH, "species[%zu].diameter", s);
 		snprintf(key[2], YAML_PATH, "species[%zu].mass", s);
-		if (!read_number(file, key[0], one->fraction, NOT_NEGATIVE, &species[s].fraction, error) ||
-			!read_number(file, key[1], one->diameter, POSITIVE, &species[s].body.diameter, error) ||
-			!read_number(file, key[2], one->mass, POSITIVE, &species[s].body.mass, error))
+		if (!value_number(file, key[0], one->fraction, VALUE_NOT_NEGATIVE, &species[s].fraction, error) ||
+			!value_number(file, key[1], one->diameter, VALUE_POSITIVE, &species[s].body.diameter, error) ||
+			!value_number(file, key[2], one->mass, VALUE_POSITIVE, &species[s].body.mass, error))
 			return false;
 	}
 	file->recipe.species = species;
@@ -130,8 +58,7 @@ static bool read_species(struct scene_file *file, char *error)
 	return true;
 }
 
-/* What particles call a species: its name, or its number from 1. */
-static void name_species(const struct scene_words *words, size_t s, char name[TEXT_SHOWN])
+void scene_words_species(const struct scene_words *words, size_t s, char name[TEXT_SHOWN])
 {
 	if (words->species[s].name)
 		snprintf(name, TEXT_SHOWN, "%s", words->species[s].name);
@@ -147,8 +74,8 @@ static bool size_body(struct scene_file *file, unsigned b, uint32_t *species, ch
 	char diameter[YAML_PATH], mass[YAML_PATH];
 	snprintf(diameter, sizeof diameter, "bodies[%u].diameter", b);
 	snprintf(mass, sizeof mass, "bodies[%u].mass", b);
-	if (!read_number(file, diameter, body->diameter, POSITIVE, &size.diameter, error) ||
-		!read_number(file, mass, body->mass, POSITIVE, &size.mass, error))
+	if (!value_number(file, diameter, body->diameter, VALUE_POSITIVE, &size.diameter, error) ||
+		!value_number(file, mass, body->mass, VALUE_POSITIVE, &size.mass, error))
 		return false;
 	struct scene_recipe *recipe = &file->recipe;
 	size_t s = 0;
@@ -172,11 +99,11 @@ static bool name_body(struct scene_file *file, unsigned b, uint32_t *species, ch
 	if (body->diameter || body->mass)
 		return scene_file_refuse(file, error, key, "a diameter or mass beside a list of species; accepted: species");
 	for (size_t s = 0; s < words->species_count; s++) {
-		name_species(words, s, name);
+		scene_words_species(words, s, name);
 		*species = (uint32_t)s;
 		if (body->species ? strcmp(body->species, name) == 0 : words->species_count == 1) return true;
 	}
-	name_species(words, 0, name);
+	scene_words_species(words, 0, name);
 	return scene_file_refuse(file, error, key, "'%s' is not one of the %u species; the first is '%.40s'",
 							 text_shown(shown, body->species ? body->species : ""), words->species_count, name);
 }
@@ -200,10 +127,10 @@ static bool read_bodies(struct scene_file *file, char *error)
 		snprintf(position, sizeof position, "bodies[%u].position", b);
 		snprintf(velocity, sizeof velocity, "bodies[%u].velocity", b);
 		if (!body->position) return scene_file_refuse(file, error, position, "not given; accepted: a list of numbers");
-		if (!read_vector(file, position, body->position, body->position_count, false, ANY, particles[b].position,
-						 error) ||
-			!read_vector(file, velocity, body->velocity, body->velocity_count, false, ANY, particles[b].velocity,
-						 error))
+		if (!value_vector(file, position, body->position, body->position_count, false, VALUE_ANY, particles[b].position,
+						  error) ||
+			!value_vector(file, velocity, body->velocity, body->velocity_count, false, VALUE_ANY, particles[b].velocity,
+						  error))
 			return false;
 		if (words->species || body->species ? !name_body(file, b, &particles[b].species, error)
 											: !size_body(file, b, &particles[b].species, error))
@@ -238,7 +165,7 @@ static bool read_start_file(struct scene_file *file, char *error)
 	source->start_path = start_path(source);
 	bool memory = known && names && source->start_path;
 	for (size_t s = 0; memory && s < known_count; s++) {
-		name_species(words, s, names[s]);
+		scene_words_species(words, s, names[s]);
 		known[s] = (struct extended_xyz_species){names[s], recipe->species[s].body};
 	}
 	struct extended_xyz xyz;
@@ -305,10 +232,11 @@ static bool read_start(struct scene_file *file, char *error)
 	if (!check_company(file, error)) return false;
 
 	recipe->temperature = recipe->velocities == SCENE_MAXWELL;
-	if (start && !read_number(file, "start.temperature", start->temperature, POSITIVE, &recipe->temperature, error))
+	if (start &&
+		!value_number(file, "start.temperature", start->temperature, VALUE_POSITIVE, &recipe->temperature, error))
 		return false;
 	uint64_t particles = 0;
-	if (!read_count(file, "particles", words->particles, 1, SCENE_MOST_PARTICLES, &particles, error)) return false;
+	if (!value_count(file, "particles", words->particles, 1, SCENE_MOST_PARTICLES, &particles, error)) return false;
 	recipe->particle_count = (size_t)particles;
 	if (words->bodies) return read_bodies(file, error);
 	if (recipe->positions != SCENE_GIVEN) return true;
@@ -323,18 +251,18 @@ static bool read_space(struct scene_file *file, char *error)
 	const struct scene_words *words = file->source->words;
 	struct scene_recipe *recipe = &file->recipe;
 	uint64_t dimensions = 3;
-	if (!read_count(file, "dimensions", words->dimensions, 1, 3, &dimensions, error)) return false;
+	if (!value_count(file, "dimensions", words->dimensions, 1, 3, &dimensions, error)) return false;
 	recipe->dimensions = (int)dimensions;
-	if (words->boundaries && !check_length(file, "boundaries", words->boundaries_count, true, error)) return false;
+	if (words->boundaries && !value_length(file, "boundaries", words->boundaries_count, true, error)) return false;
 	for (int axis = 0; axis < recipe->dimensions && words->boundaries; axis++)
 		recipe->boundary[axis] = (enum scene_boundary)words->boundaries[words->boundaries_count == 1 ? 0 : axis];
-	return read_number(file, "density", words->density, POSITIVE, &recipe->density, error) &&
-		   read_vector(file, "box", words->box, words->box_count, true, POSITIVE, recipe->box, error) &&
-		   read_vector(file, "gravity", words->gravity, words->gravity_count, false, ANY, recipe->acceleration,
-					   error) &&
-		   read_restitution(file, "restitution", words->restitution, &recipe->restitution, error) &&
-		   read_restitution(file, "boundary_restitution", words->boundary_restitution, &recipe->boundary_restitution,
-							error);
+	return value_number(file, "density", words->density, VALUE_POSITIVE, &recipe->density, error) &&
+		   value_vector(file, "box", words->box, words->box_count, true, VALUE_POSITIVE, recipe->box, error) &&
+		   value_vector(file, "gravity", words->gravity, words->gravity_count, false, VALUE_ANY, recipe->acceleration,
+						error) &&
+		   value_restitution(file, "restitution", words->restitution, &recipe->restitution, error) &&
+		   value_restitution(file, "boundary_restitution", words->boundary_restitution, &recipe->boundary_restitution,
+							 error);
 }
 
 static bool read_run(struct scene_file *file, char *error)
@@ -348,16 +276,16 @@ static bool read_run(struct scene_file *file, char *error)
 	file->limits = (struct touchstone_limits){UINT64_MAX, INFINITY, NULL};
 	if (words->form) file->recipe.form = (enum touchstone_form) * words->form;
 	if (words->search) file->recipe.search = (enum touchstone_search) * words->search;
-	return read_count(file, "seed", words->seed, 0, UINT64_MAX, &file->seed, error) &&
-		   read_count(file, "events", words->events, 0, UINT64_MAX, &file->limits.events, error) &&
-		   read_number(file, "time", words->time, NOT_NEGATIVE, &file->limits.time, error) &&
-		   read_number(file, "equilibrate", words->equilibrate, NOT_NEGATIVE, &file->equilibrate, error) &&
-		   read_number(file, "cell", words->cell, NOT_NEGATIVE, &file->recipe.cell, error) &&
-		   read_number(file, "clock", words->clock, NOT_NEGATIVE, &file->recipe.clock, error);
+	return value_count(file, "seed", words->seed, 0, UINT64_MAX, &file->seed, error) &&
+		   value_count(file, "events", words->events, 0, UINT64_MAX, &file->limits.events, error) &&
+		   value_number(file, "time", words->time, VALUE_NOT_NEGATIVE, &file->limits.time, error) &&
+		   value_number(file, "equilibrate", words->equilibrate, VALUE_NOT_NEGATIVE, &file->equilibrate, error) &&
+		   value_number(file, "cell", words->cell, VALUE_NOT_NEGATIVE, &file->recipe.cell, error) &&
+		   value_number(file, "clock", words->clock, VALUE_NOT_NEGATIVE, &file->recipe.clock, error);
 }
 
 bool scene_words_understand(struct scene_file *file, char error[STORE_ERROR])
 {
 	return read_space(file, error) && read_run(file, error) && read_walls(file, error) && read_species(file, error) &&
-		   read_start(file, error);
+		   read_start(file, error) && interaction_words_understand(file, error);
 }
