@@ -58,8 +58,9 @@ enum touchstone_form {
 };
 
 enum touchstone_search {
-	TOUCHSTONE_CELLS, /* only particles in neighbouring cells are looked at */
-	TOUCHSTONE_ALL,   /* every pair is looked at: slow, to check the other against */
+	TOUCHSTONE_CELLS,    /* only particles in neighbouring cells are looked at, and most rejected in binary32 */
+	TOUCHSTONE_ALL,      /* every pair is looked at: slow, to check the others against */
+	TOUCHSTONE_UNSIEVED, /* cells, with every rejection left to the working arithmetic: to tell what that costs */
 };
 
 /* All that an engine is made from. The arrays belong to the caller and are only read while the engine is made. */

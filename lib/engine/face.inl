@@ -105,6 +105,11 @@ static void engine_explain(const struct touchstone_engine *engine, void (*line)(
 				 cells->capacity);
 		line(context, text);
 	}
+	const struct sieve_machine *machine = engine->shadows.machine;
+	snprintf(text, sizeof text, "sieve: %s%s",
+			 machine ? "most pairs are rejected in binary32 first, by way of " : "none",
+			 machine ? machine->name : "; every pair is worked out in full");
+	if (cells->entry) line(context, text);
 	snprintf(text, sizeof text, "agenda: days of %g, %zu of them in the ring", engine->agenda.day, engine->agenda.days);
 	line(context, text);
 	line(context, engine->wall_count ? "walls: tested for every particle" : "walls: none, so none are tested");
