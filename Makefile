@@ -116,12 +116,13 @@ $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 # gcc makes selections of vectors only where nobody minds floating-point traps; no value depends on it.
 $(BUILD)/object/lib/finder/batch.o: CFLAGS += -fno-trapping-math
 
-$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"'
+$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"' \
+	-DTOUCHSTONE_BENCH='"$(BUILD)/bench"'
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
 
-$(TESTS): | $(PLUGINS)
+$(TESTS): | $(PLUGINS) $(BUILD)/bench
 
 # As a stranger would compile them: against lib/touchstone.h alone.
 $(BUILD)/plugins/%.so: verify/test/plugins/%.c lib/touchstone.h

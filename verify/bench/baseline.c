@@ -111,7 +111,8 @@ void baseline_free(struct baseline *baseline)
 const char *baseline_made(const struct baseline *baseline, char text[100])
 {
 	const char *revision = text_at(baseline->document, "revision");
-	snprintf(text, 100, "%.30s%s%.40s", text_at(baseline->document, "date"), *revision ? ", revision " : "", revision);
+	snprintf(text, 100, "%.24s%s%.32s, %.24s", text_at(baseline->document, "date"), *revision ? ", revision " : "",
+			 revision, text_at(baseline->document, "command"));
 	return text;
 }
 
@@ -150,7 +151,7 @@ static json_t *row_document(const struct row *row)
 bool baseline_write(const char *path, const json_t *document, const struct row *rows, size_t count,
 					char error[REPORT_ERROR])
 {
-	static const char *const kept[] = {"machine", "date", "revision"};
+	static const char *const kept[] = {"machine", "date", "revision", "command"};
 	json_t *baseline = json_pack("{s: s}", "schema", BASELINE_SCHEMA), *list = json_array();
 	for (size_t k = 0; k < sizeof kept / sizeof *kept; k++)
 		if (json_object_get(document, kept[k])) json_object_set(baseline, kept[k], json_object_get(document, kept[k]));

@@ -96,11 +96,13 @@ static void add_series(struct result_figure figure, const char *label, enum seri
 	}
 }
 
-/* A figure of one sweep: this run, and the stored one beside it. */
-static void add_sweep(struct result *result, const struct figure_frame *frame, const struct sweep *sweep,
+/* A figure of one sweep, from cost 0 upwards: this run, and the stored one beside it. */
+static void add_sweep(struct result *result, struct figure_frame frame, const struct sweep *sweep,
 					  const struct row *rows, const struct baseline *baseline)
 {
-	struct result_figure figure = result_figure(result, frame);
+	for (int p = 0; p < POINTS; p++)
+		if (sweep->has(&points[p])) frame.y.range[1] = fmax(frame.y.range[1], 1.1 * rows[p].value[NANOSECONDS].high);
+	struct result_figure figure = result_figure(result, &frame);
 	add_series(figure, "this run", SERIES_POINTS, sweep, rows, NULL);
 	if (baseline) add_series(figure, "stored run", SERIES_LINE, sweep, rows, baseline);
 }
@@ -108,22 +110,20 @@ static void add_sweep(struct result *result, const struct figure_frame *frame, c
 static void add_figures(struct result *result, const struct row *rows, const struct baseline *baseline)
 {
 	add_sweep(result,
-			  &(struct figure_frame){
+			  (struct figure_frame){
 				  .name = "size",
 				  .kind = "curves",
 				  .title = "Cost of an event over the number of spheres",
-				  .caption =
-					  "Elastic hard spheres at density 0.5 in binary64, one core. What grows with the number is "
-					  "the time to fetch from ever more distant memory: the instructions, in the CSV, hardly do.",
-				  .alternative = "Nanoseconds per event over 500 to a million spheres; the cost rises where the caches "
-								 "end.",
+				  .caption = "Elastic hard spheres at density 0.5 in binary64, one core. The instructions are in the "
+							 "CSV; where time grows and they do not, it is the way to ever more distant memory.",
+				  .alternative = "Nanoseconds per event over 500 to a million spheres.",
 				  .x = {"spheres", 10, {0, 0}},
 				  .y = {"time per event / ns", 0, {0, 0}},
 				  .columns = figure_columns,
 			  },
 			  &(struct sweep){varies_size, size_of}, rows, baseline);
 	add_sweep(result,
-			  &(struct figure_frame){
+			  (struct figure_frame){
 				  .name = "density",
 				  .kind = "curves",
 				  .title = "Cost of an event over density",
@@ -143,9 +143,8 @@ static void add_figures(struct result *result, const struct row *rows, const str
 					.caption = "2916 elastic hard spheres at density 0.5: the same scene in every arithmetic. Nearly "
 							   "all pairs are rejected in binary32 with a proven bound; without that sieve, every pair "
 							   "is worked out in MPFR.",
-					.alternative = "Nanoseconds per event over significand bits, on a logarithmic scale: hardware "
-								   "arithmetics lie lowest, MPFR an order of magnitude higher, MPFR without the sieve "
-								   "highest.",
+					.alternative = "Nanoseconds per event over significand bits, on a logarithmic scale, one mark for "
+								   "each arithmetic; MPFR with the sieve and without.",
 					.x = {"significand bits", 0, {0, 0}},
 					.y = {"time per event / ns", 10, {0, 0}},
 					.columns = figure_columns,
@@ -163,10 +162,7 @@ static void add_demands(struct result *result, const struct findings *findings)
 										  "third quartile", "met",       NULL};
 	struct demand demands[DEMANDS];
 	struct result_table table =
-		result_table(result, "What was asked for",
-					 "Quotients are taken repetition by repetition, both runs of a pair being measured within seconds "
-					 "of each other.",
-					 columns);
+		result_table(result, "What was asked for", "Quotients are taken between runs of the same repetition.", columns);
 	findings_demands(findings, demands);
 	for (int d = 0; d < DEMANDS; d++) {
 		const struct demand *demand = &demands[d];
@@ -244,6 +240,13 @@ static void add_notes(struct result *result, const struct findings *findings, co
 	if (baseline) result_note(result, "The stored run is of %s.", baseline_made(baseline, made));
 }
 
+static int counts(const struct row *rows)
+{
+	int counted = 0;
+	for (int p = 0; p < POINTS; p++) counted += !isnan(rows[p].value[INSTRUCTIONS].median);
+	return counted;
+}
+
 struct result *bench_result(const struct findings *findings, const struct row rows[ROWS],
 							const struct baseline *baseline)
 {
@@ -259,7 +262,7 @@ struct result *bench_result(const struct findings *findings, const struct row ro
 	add_rows(result, rows, baseline);
 	add_notes(result, findings, baseline);
 	if (findings->stopped)
-		result_incomplete(result, "interrupted after %zu of %u repetitions", findings->drop.count,
-						  findings->effort.repetitions);
+		result_incomplete(result, "interrupted after %zu of %u repetitions; of %d runs, instructions are counted of %d",
+						  findings->drop.count, findings->effort.repetitions, POINTS, counts(rows));
 	return result;
 }

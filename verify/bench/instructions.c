@@ -48,19 +48,17 @@ bool instructions_possible(void)
 
 double instructions_read(const char *path, char error[REPORT_ERROR])
 {
+	static const char key[] = "totals: ";
 	FILE *file = fopen(path, "r");
-	char line[256], *end;
 	double count = NAN;
-	while (file && isnan(count) && fgets(line, sizeof line, file))
-		if (strncmp(line, "totals: ", 8) == 0) {
-			count = strtod(line + 8, &end);
-			if (end == line + 8 || (*end != '\n' && *end != '\0') || !(count > 0)) break;
-		}
-	if (!(count > 0)) {
+	for (char line[256]; file && fgets(line, sizeof line, file);) {
+		if (strncmp(line, key, strlen(key)) != 0) continue;
+		line[strcspn(line, "\n")] = '\0';
+		if (!text_number(line + strlen(key), &count) || !(count > 0)) count = NAN;
+	}
+	if (isnan(count))
 		snprintf(error, REPORT_ERROR, "%.200s: %s", path,
 				 file ? "no line 'totals: NUMBER' as callgrind writes it" : strerror(errno));
-		count = NAN;
-	}
 	if (file) fclose(file);
 	return count;
 }

@@ -82,4 +82,5 @@ void table_demands(FILE *stream, const struct demand *demands, size_t count)
 		fprintf(stream, "  %s %g%s\n", demand->at_most ? "at most" : "at least", demand->limit,
 				demand_met(demand) ? "" : ": not met");
 	}
+	putc('\n', stream);
 }
