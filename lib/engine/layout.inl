@@ -61,8 +61,11 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 		volume *= engine->box[axis];
 		content *= engine->largest;
 	}
-	/* Where particles are far apart, larger cells: crossing one costs more than looking at more neighbours. */
-	double occupancy = 0.45 * pow(content / volume, -1.0 / 3);
+	/* Particles per cell, found by trial: the cells of a search should hold about as many as the sieve takes at once.
+	 * Where spheres are far apart, larger cells: crossing one costs more than looking at more neighbours. */
+	static const double few_neighbours[] = {4, 1.5}; /* in 1 and 2 dimensions */
+	int dimensions = engine->dimensions;
+	double occupancy = dimensions < 3 ? few_neighbours[dimensions - 1] : 0.45 * pow(content / volume, -1.0 / 3);
 	double side = engine->wanted_cell > 0 ? engine->wanted_cell
 										  : pow(volume * occupancy / engine->count, 1.0 / engine->dimensions);
 	side = fmax(side, reach);

@@ -51,7 +51,7 @@ INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint3
 				size = fabsf(self.position[0]) + fabsf(self.position[1]) + fabsf(self.position[2]),
 				speed = fabsf(self.velocity[0]) + fabsf(self.velocity[1]) + fabsf(self.velocity[2]),
 				h_fixed = 8 * u * (sieve->boxes + size), h_time = 12 * u * sieve->span + sieve->drift;
-	const lanes zero = {0}, never = zero + INFINITY;
+	const lanes zero = {0}, never = zero + INFINITY, number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 	float latest = sieve->latest;
 	size_t kept = 0;
 	for (size_t k = 0; k < count; k += LANES) {
@@ -77,19 +77,18 @@ INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint3
 		lanes q = 4 * h * (r1 + h) + (32 * u + 64 * n) * (r1 * r1 + square) + (64 * n * age * age) * s2 + tiny;
 		lanes error_b = s * (2 * h + (12 * u + 16 * n) * r1 + (16 * n * age) * s) + tiny;
 		lanes error_d = 2 * s2 * q + tiny, d = b * b - a * c, d_most = d + error_d;
-		flags out = step.less(error_b, b) | step.less(d_most, zero);
-		const uint32_t inside = count - k < LANES ? (1u << (count - k)) - 1 : (1u << LANES) - 1;
-		if (!(~step.bits(out) & inside)) continue;
+		flags out = ~step.less(number, zero + (float)(count - k)) | step.less(error_b, b) | step.less(d_most, zero);
+		if (step.bits(out) == (1u << LANES) - 1) continue;
 		lanes d_least = d - error_d;
 		lanes low = (c - q) / (error_b - b + step.root(pick(step.less(zero, d_most), d_most, zero)));
 		flags sure = step.less(b + error_b, zero) & step.less(zero, d_least) & step.less(q, c);
 		lanes high = (c + q) / (step.root(pick(sure, d_least, zero + 1)) - b - error_b);
 		if (sieve->by_order) {
-			float soonest = step.least(pick(sure, high, never)) * 1.0001f + sieve->drift;
+			float soonest = step.least(pick(sure & ~out, high, never)) * 1.0001f + sieve->drift;
 			latest = soonest < latest ? soonest : latest;
 			out |= step.less(zero + latest, low);
 		}
-		kept += step.pack(~step.bits(out) & inside, entry + k, entry + kept);
+		kept += step.pack(~step.bits(out) & ((1u << LANES) - 1), entry + k, entry + kept);
 	}
 	return kept;
 }

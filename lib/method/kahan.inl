@@ -12,7 +12,7 @@
  *     ball-ball -0x1.20ead74f39b9bp+2 0x1.7369d85fc87fap+0 0 1 0 0 0x1.7369d85fc87fcp+0
  *     ball-ball 0x1p400 0 0 -0x1p200 0 0 1 */
 
-static inline num kahan_discriminant(num a, num b, num c)
+static inline __attribute__((always_inline)) num kahan_discriminant(num a, num b, num c)
 {
 	num product = mul(a, c), rest = fused(negated(a), c, product);
 	return add(fused(b, b, negated(product)), rest);

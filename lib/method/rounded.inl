@@ -68,7 +68,7 @@ static num rounded_balls_exactly(enum touchstone_shape shape, const struct balls
 	return rounded_exactly(shape, 7, numbers, f);
 }
 
-static inline num rounded_ball_ball(const struct balls *balls, struct quadratic *f)
+static inline __attribute__((always_inline)) num rounded_ball_ball(const struct balls *balls, struct quadratic *f)
 {
 #ifdef NUM_HAS_BATCHES
 	double fast = fast_balls(false, balls, f);
@@ -77,7 +77,7 @@ static inline num rounded_ball_ball(const struct balls *balls, struct quadratic 
 	return rounded_balls_exactly(TOUCHSTONE_BALL_BALL, balls, f);
 }
 
-static inline num rounded_ball_leave(const struct balls *balls, struct quadratic *f)
+static inline __attribute__((always_inline)) num rounded_ball_leave(const struct balls *balls, struct quadratic *f)
 {
 #ifdef NUM_HAS_BATCHES
 	double fast = fast_balls(true, balls, f);
@@ -86,7 +86,7 @@ static inline num rounded_ball_leave(const struct balls *balls, struct quadratic
 	return rounded_balls_exactly(TOUCHSTONE_BALL_LEAVE, balls, f);
 }
 
-static inline num rounded_ball_plane(const struct flight *flight, struct quadratic *f)
+static inline __attribute__((always_inline)) num rounded_ball_plane(const struct flight *flight, struct quadratic *f)
 {
 #ifdef NUM_HAS_BATCHES
 	double fast = fast_plane(flight, f);

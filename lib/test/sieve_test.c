@@ -81,7 +81,7 @@ static void one_crowd(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_al
 		wait[k] = meeting(&particle[0], &particle[k + 1], shift, now);
 		if (wait[k] < soonest) soonest = wait[k];
 	}
-	for (uint32_t k = count; k < count + 32; k++) entry[k] = 0;
+	for (uint32_t k = count; k < count + 32; k++) entry[k] = (uint32_t)between(0, count + 1); /* not to be looked at */
 	struct sieve sieve = {.box = {(float)box, (float)box, (float)box},
 						  .boxes = 3 * (float)box,
 						  .now = (float)now,

@@ -1,6 +1,7 @@
 /* `rounded` against the exact oracle, for as many questions as one has time for: `make soak` asks 10^9, or
- * `make soak QUESTIONS=1e7`. Half are ordinary, half are hard in one way or another. Ctrl-C ends it with what was
- * found so far. Exit status: 0 when none was wrong, 1 when one was, 2 for wrong usage. */
+ * `make soak QUESTIONS=1e7`. Three in four are random balls that approach, touch, graze or fall; the others are the
+ * families that were built to be hard, in turn. Ctrl-C ends it with what was found so far. Exit status: 0 when none was
+ * wrong, 1 when one was, 2 for wrong usage. */
 #include <inttypes.h>
 #include <math.h>
 #include <omp.h>
@@ -10,6 +11,7 @@
 
 #include "command/interrupt.h"
 #include "command/progress.h"
+#include "family/family.h"
 #include "oracle/oracle.h"
 #include "scene/random.h"
 #include "touchstone.h"
@@ -32,15 +34,6 @@ static double between(struct random_state *random, double least, double most)
 static int below(struct random_state *random, uint64_t limit)
 {
 	return (int)random_below(random, limit);
-}
-
-/* Any finite double. */
-static double any_double(struct random_state *random)
-{
-	uint64_t bits = random_bits(random);
-	double x;
-	memcpy(&x, &bits, sizeof x);
-	return isfinite(x) ? x : 0;
 }
 
 /* Two balls some distance apart that fly more or less at each other. */
@@ -75,42 +68,56 @@ static void draw_graze(struct random_state *random, double *number)
 	number[6] = 1;
 }
 
-/* Lengths and speeds each on a scale of their own, down to where significands are cut off. */
-static void draw_scaled(struct random_state *random, double *number)
+/* Random questions of balls, or of a falling ball. */
+static enum touchstone_shape draw_random(uint64_t chunk, struct asked *asked)
 {
-	int length = below(random, 2080) - 1060, speed = below(random, 2080) - 1060;
-	draw_approach(random, number);
-	for (int i = 0; i < 7; i++) number[i] = ldexp(number[i], i < 3 || i == 6 ? length : speed);
+	static void (*const draw[])(struct random_state *, double *) = {draw_approach, draw_approach, draw_contact,
+																	draw_graze};
+	static const enum touchstone_shape shapes[] = {TOUCHSTONE_BALL_BALL, TOUCHSTONE_BALL_BALL, TOUCHSTONE_BALL_LEAVE,
+												   TOUCHSTONE_BALL_PLANE};
+	struct random_state random = random_seed(SEED + chunk);
+	enum touchstone_shape shape = shapes[chunk % 4];
+	for (int k = 0; k < CHUNK; k++) {
+		double *number = asked->number[k];
+		draw[k % 4](&random, number);
+		if (shape == TOUCHSTONE_BALL_PLANE) number[2] = -fabs(number[2]), number[3] = 0.5;
+	}
+	return shape;
 }
 
-static void draw_anything(struct random_state *random, double *number)
+/* The family and shape whose turn it is, of those that were built to be hard. */
+static const struct family *choose_family(uint64_t turn, enum touchstone_shape *shape)
 {
-	for (int i = 0; i < 7; i++) number[i] = any_double(random);
+	const struct family *family, *hard[256];
+	enum touchstone_shape shapes[256];
+	size_t count = 0;
+	for (size_t f = 0; (family = family_at(f)); f++)
+		for (int s = 0; s < TOUCHSTONE_SHAPES && count < 256; s++)
+			if (family->origin == FAMILY_HAND_MADE && family->shapes >> s & 1)
+				hard[count] = family, shapes[count++] = (enum touchstone_shape)s;
+	*shape = shapes[turn % count];
+	return hard[turn % count];
 }
 
-/* Few bits, so that much is exact: double roots, ties between two doubles, touches. */
-static void draw_integers(struct random_state *random, double *number)
+/* Fills a chunk: one in four with a family. */
+static enum touchstone_shape draw_chunk(uint64_t chunk, struct asked *asked)
 {
-	int scale = below(random, 3) ? 0 : -1074;
-	for (int i = 0; i < 7; i++) number[i] = ldexp(below(random, 17) - 8, scale);
+	char error[160];
+	enum touchstone_shape shape;
+	if (chunk % 4) return draw_random(chunk - chunk / 4, asked);
+	const struct family *family = choose_family(chunk / 4, &shape);
+	if (family_fill(family, shape, SEED, chunk * CHUNK, CHUNK, asked->number, error)) return shape;
+	fprintf(stderr, "rounded_soak: %s\n", error);
+	exit(2);
 }
-
-typedef void draw(struct random_state *random, double *number);
 
 static void answer_chunk(struct oracle *oracle, uint64_t chunk, struct asked *asked, struct tally *tally)
 {
-	static draw *const common[] = {draw_approach, draw_approach, draw_approach, draw_contact, draw_graze};
-	static draw *const rare[] = {draw_scaled, draw_anything, draw_integers};
-	struct random_state random = random_seed(SEED + chunk);
-	enum touchstone_shape shape = chunk % 4 < 2 ? TOUCHSTONE_BALL_BALL : (enum touchstone_shape)(chunk % 4 - 1);
-	for (int k = 0; k < CHUNK; k++) (k % 64 ? common[k % 5] : rare[k / 64 % 3])(&random, asked->number[k]);
-	if (shape == TOUCHSTONE_BALL_PLANE)
-		for (int k = 0; k < CHUNK; k++) asked->number[k][2] = k % 8 ? -fabs(asked->number[k][2]) : asked->number[k][2];
-
+	enum touchstone_shape shape = draw_chunk(chunk, asked);
 	const double(*number)[TOUCHSTONE_MOST_NUMBERS] = (const double(*)[TOUCHSTONE_MOST_NUMBERS])asked->number;
 	char error[160];
 	if (!touchstone_find("binary64", "rounded", shape, number, CHUNK, false, asked->time, error)) {
-		fprintf(stderr, "soak: %s\n", error);
+		fprintf(stderr, "rounded_soak: %s\n", error);
 		exit(2);
 	}
 	tally->asked += CHUNK;
