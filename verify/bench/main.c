@@ -132,6 +132,7 @@ static int bench(const struct arguments *arguments)
 			findings_demands(findings, demands);
 			table_rows(stdout, rows, ROWS, baseline);
 			table_demands(stdout, demands, DEMANDS);
+			fflush(stdout);
 			if (*findings->uncounted) fprintf(stderr, "bench: %s\n", findings->uncounted);
 			struct result *result = bench_result(findings, rows, baseline);
 			status = result ? store(arguments, result, findings, rows, state, progress_clock() - began)
