@@ -76,6 +76,8 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 		engine->cells.count[axis] = count[axis];
 	}
 	for (uint32_t i = 0; i < engine->count; i++) {
+		const struct body *body = &engine->body[i];
+		engine->itinerary[i].entered = moment_double(engine->now) - (body->page + to_double(body->time));
 		for (int axis = 0; axis < engine->dimensions; axis++) {
 			double coordinate = coordinate_now(engine, i, axis), box = engine->box[axis];
 			if (engine->periodic[axis] && fabs(coordinate) > box / 2) { /* the image that is in the box */

@@ -115,7 +115,7 @@ static void equal_precision_in_other_scenes(void **state)
 		assert_same_run(&mixture, events, "mpfr:53", "binary64");
 		mixture.restitution = (struct touchstone_restitution){TOUCHSTONE_VISCOELASTIC, 0.05};
 		assert_same_run(&mixture, events, "mpfr:53", "binary64");
-		assert_same_run(&mixture, events, "mpfr:9", "short:9");
+		assert_same_run(&mixture, events / 10, "mpfr:9", "short:9"); /* so coarse that every pair must be looked at */
 	}
 }
 
@@ -127,7 +127,7 @@ static void search_does_not_matter(void **state)
 	static const char *const methods[] = {"stable", "rounded", "compensated"}; /* in binary64 */
 	struct random_state random = random_seed(SEED);
 	print_message("seed %d\n", SEED);
-	for (int trial = 0; trial < 12; trial++) {
+	for (int trial = 0; trial < (brief ? 36 : 240); trial++) {
 		int dimensions = 1 + (int)(random_bits(&random) % 3);
 		struct scene_recipe recipe =
 			gas(dimensions, 20 + random_bits(&random) % 40, 0.1 + 0.5 * random_uniform(&random));
@@ -136,7 +136,8 @@ static void search_does_not_matter(void **state)
 			if (random_bits(&random) % 3 == 0) recipe.boundary[axis] = SCENE_WALLS;
 		if (random_bits(&random) % 3 == 0) recipe.acceleration[dimensions - 1] = -0.1 * random_uniform(&random);
 		if (random_bits(&random) % 2) recipe.species_count = 2, recipe.species = two_sizes, recipe.density *= 0.6;
-		const char *arithmetic = arithmetics[trial % 4], *method = trial % 4 ? "stable" : methods[trial / 4];
+		const char *arithmetic = trial < 12 ? arithmetics[trial % 4] : "binary64"; /* where it is quickest */
+		const char *method = trial % 4 ? "stable" : methods[trial / 4 % 3];
 		recipe.search = TOUCHSTONE_ALL;
 		struct touchstone_status all = run(&recipe, arithmetic, method, 1500, INFINITY);
 		for (int sizes = 0; sizes < 4; sizes++) {
