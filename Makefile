@@ -82,7 +82,7 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/object/verify/command/reproduce.o $(BUILD)/object/verify/command/grade.o: CPPFLAGS += \
+$(patsubst %,$(BUILD)/object/verify/command/%.o,reproduce grade chart): CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
 # Templates and plot scripts are part of the program.

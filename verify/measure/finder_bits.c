@@ -6,13 +6,14 @@
 #include "measure/finder_grade.h"
 
 enum { GUARD = 64 /* bits beyond those of the finest arithmetic */ };
+static const double least_time = 0x1p-562;
 
 struct finder_truth {
 	enum touchstone_shape shape;
 	const double (*numbers)[TOUCHSTONE_MOST_NUMBERS];
 	size_t room, count;
 	struct oracle_time *time;
-	bool *asked; /* whether the question is one the oracle takes */
+	bool *asked; /* whether the question is one the oracle takes, and its answer one that doubles can tell */
 	mpfr_t *exact;
 	double (*answer)[TOUCHSTONE_MOST_TERMS];
 	mpfr_t got, larger;
@@ -59,6 +60,7 @@ void finder_truth_solve(struct finder_truth *truth, struct oracle *oracle, enum 
 		if (!truth->asked[k]) continue;
 		truth->time[k] = oracle_solve(oracle, &query);
 		oracle_round_mpfr(oracle, truth->exact[k], &truth->time[k], MPFR_RNDN);
+		truth->asked[k] = truth->time[k].event != ORACLE_LATER || mpfr_cmp_d(truth->exact[k], least_time) >= 0;
 	}
 }
 
@@ -111,7 +113,7 @@ double finder_bits_of_share(const struct finder_bits *bits, double share)
 	uint64_t below = 0;
 	for (int level = 0; level < FINDER_BITS_LEVELS - 1; level++) {
 		below += bits->count[level];
-		if ((double)below > spared) return (double)level / FINDER_BITS_STEP;
+		if ((double)below > spared) return fmax((double)level / FINDER_BITS_STEP, bits->least);
 	}
 	return INFINITY;
 }

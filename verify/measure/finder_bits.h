@@ -4,8 +4,9 @@
  *     bits = -log2(|got - exact| / the larger of the two)
  *
  * An exact answer has infinitely many; one that is not even of the right size, or later than an event that is now, has
- * none. Only events that are found have bits (finder_class.h); faults are counted elsewhere. The questions are exact
- * as doubles: what a coarser arithmetic loses in reading them counts against it. */
+ * none. Only events that are found have bits (finder_class.h); faults are counted elsewhere. Times of less than 2^-562
+ * are left out, since answers are told in doubles, which hold up to 512 bits only of what is larger. The questions are
+ * exact as doubles: what a coarser arithmetic loses in reading them counts against it. */
 #ifndef VERIFY_FINDER_BITS_H
 #define VERIFY_FINDER_BITS_H
 
@@ -19,7 +20,7 @@
 /* Questions of one shape with their exact answers. */
 struct finder_truth;
 
-/* Room for so many questions, for arithmetics of up to so many bits; NULL when out of memory. */
+/* Room for so many questions, for arithmetics of up to so many bits, 512 at most; NULL when out of memory. */
 struct finder_truth *finder_truth_create(size_t room, int bits);
 void finder_truth_destroy(struct finder_truth *truth); /* NULL is fine */
 
@@ -42,7 +43,7 @@ bool finder_bits_add(struct finder_bits *bits, struct finder_truth *truth, struc
 					 const char *arithmetic, const char *method, char error[160]);
 
 /* The bits that at least this share of the found answers has: 0.5 for the median, 0.999 for all but one in a thousand.
- * Rounded down to a sixteenth; infinite when they are exact, NaN when none was found. */
+ * To a sixteenth at most too low; infinite when they are exact, NaN when none was found. */
 double finder_bits_of_share(const struct finder_bits *bits, double share);
 
 #endif
