@@ -28,7 +28,7 @@ static void write_escaped(FILE *stream, const char *text)
 		if (mark)
 			fputs(entities[mark - marks], stream);
 		else
-			fputc((unsigned char)*text < ' ' ? ' ' : *text, stream);
+			fputc((unsigned char)*text < ' ' && *text != '\n' ? ' ' : *text, stream);
 	}
 }
 

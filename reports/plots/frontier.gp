@@ -4,7 +4,7 @@
 
 panel_width = columns_count > 1 ? 400 : 700
 panel_height = rows_count > 1 ? 300 : 420
-left_edge = 82; right_edge = 24; top_edge = 96; bottom_edge = 58; gap = 34
+left_edge = 82; right_edge = 24; top_edge = columns_count > 1 ? 104 : 28; bottom_edge = 58; gap = 40
 width = left_edge + right_edge + columns_count * panel_width + (columns_count - 1) * gap
 height = top_edge + bottom_edge + rows_count * (panel_height + gap) - gap
 sizing = 'dynamic'
@@ -22,9 +22,9 @@ do for [i = 1:series_count] {
 	do for [j = 1:i - 1] { if (style[i] eq 'points' && style[j] eq 'points' && series[j] eq series[i]) { shade[i] = shade[j] } }
 	if (style[i] eq 'points' && shade[i] == 0) { heads = heads + 1; shade[i] = heads; head[heads] = i }
 }
-tint(i) = word(tints, (shade[i] - 1) % 9 + 1)
-paled(i) = word(faints, (shade[i] - 1) % 9 + 1)
-mark(i) = int(word(marks, (shade[i] - 1) % 9 + 1))
+tint(i) = word(tints, (shade[i] + 8) % 9 + 1)
+paled(i) = word(faints, (shade[i] + 8) % 9 + 1)
+mark(i) = int(word(marks, (shade[i] + 8) % 9 + 1))
 
 # One range for all panels, with air for the words to the right of the last point.
 stats 'data' using (visible(x_log, $1)) name 'across' nooutput
@@ -68,11 +68,12 @@ do for [r = 1:rows_count] { do for [c = 1:columns_count] {
 	if (r > 1 || c > 1) { unset label 1; unset label 2 }
 	heading = rows[r].(strlen(rows[r]) && strlen(columns[c]) ? ', ' : '').columns[c]
 	set label 3 heading at graph 0, graph 1 offset 0, 0.8 left textcolor rgb ink
+	if (r < rows_count) { set format x '' } else { eval log_axis('x', x_log) }
 	lines = ''; points = ''
 	do for [i = 1:series_count] { if (row[i] == r && column[i] == c) {
 		if (style[i] eq 'points') { points = points.' '.i } else { lines = lines.' '.i }
 	} }
-	if (r == 1 && c == 1) { set key at screen 1.0 * left_edge / width, screen (height - 6.0) / height left top horizontal maxrows 2 width 1 }
+	if (r == 1 && c == 1) { set key at screen 1.0 * left_edge / width, screen (height - 6.0) / height left top vertical maxrows 3 }
 	plot for [k = 1:words(lines)] 'data' index nth(lines, k) - 1 using 1:(shown($2)) with steps linecolor rgb soft linewidth 1.4 notitle, \
 		for [k = 1:words(points)] 'data' index nth(points, k) - 1 using ($5 > 0 ? NaN : $1):(shown($2)) with points \
 			linecolor rgb paled(nth(points, k)) pointtype mark(nth(points, k)) pointsize 0.55 notitle, \

@@ -70,6 +70,7 @@ bool chart_engines(const struct chart_plan *plan, struct chart *chart, double be
 /* ---- telling: lines of comma-separated values (design, section 7), a table for people, a result for the report */
 void chart_csv(FILE *stream, const struct chart_plan *plan, const struct chart *chart);
 void chart_print(FILE *stream, const struct chart_plan *plan, const struct chart *chart);
+void chart_figures(struct result *result, const struct chart_plan *plan, const struct chart *chart); /* its figures */
 struct result *chart_result(const struct chart_plan *plan, const struct chart *chart); /* NULL: no memory */
 
 #endif
