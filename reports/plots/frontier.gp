@@ -18,7 +18,7 @@ marks = '7 5 9 13 11 15 6 4 8'
 array shade[series_count]; array head[series_count]
 heads = 0
 do for [i = 1:series_count] {
-	shade[i] = 0; head[i] = 0
+	shade[i] = 0; head[i] = 1
 	do for [j = 1:i - 1] { if (style[i] eq 'points' && style[j] eq 'points' && series[j] eq series[i]) { shade[i] = shade[j] } }
 	if (style[i] eq 'points' && shade[i] == 0) { heads = heads + 1; shade[i] = heads; head[heads] = i }
 }

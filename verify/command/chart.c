@@ -12,13 +12,15 @@
 #include "result.h"
 #include "store/text.h"
 
-enum { ARITHMETIC = 256, METHOD, SEED, SECONDS, THREADS, CSV, RESULTS, MOST_NAMES = 32 };
+enum { ARITHMETIC = 256, METHOD, CASES, STARTS, SEED, SECONDS, THREADS, CSV, RESULTS, MOST_NAMES = 32 };
 
 static const struct argp_option options[] = {
 	{"quick", 'q', 0, 0, "Sizes that take about a minute (the default)", 1},
-	{"full", 'f', 0, 0, "Twenty times as many questions, and 40 start states instead of 8", 1},
+	{"full", 'f', 0, 0, "Twenty times as many questions, five times as many start states", 1},
 	{"arithmetic", ARITHMETIC, "A", 0, "Only this arithmetic, such as binary64 or mpfr:200; may be repeated", 2},
 	{"method", METHOD, "M", 0, "Only this method; may be repeated. Engines run by `stable`, or by those given", 2},
+	{"cases", CASES, "N", 0, "Questions of each family (1000; with --full 20000)", 2},
+	{"starts", STARTS, "N", 0, "Start states that horizons are taken from (8; with --full 40)", 2},
 	{"seed", SEED, "S", 0, "Seed of questions and start states (1)", 2},
 	{"seconds", SECONDS, "T", 0, "Take about so long: fewer questions and start states where these do not fit", 2},
 	{"csv", CSV, "FILE", 0, "Write the chart as comma-separated values; - for standard output, instead of the table",
@@ -38,7 +40,7 @@ struct names {
 struct wish {
 	struct names arithmetics, methods;
 	bool full;
-	uint64_t seed;
+	uint64_t cases, starts, seed; /* 0: as many as is usual */
 	double seconds;
 	int threads;
 	const char *csv, *results;
@@ -67,6 +69,12 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case METHOD:
 		add_name(&wish->methods, "method", argument);
+		return 0;
+	case CASES:
+		wish->cases = option_count("cases", argument, 1, 100000000);
+		return 0;
+	case STARTS:
+		wish->starts = option_count("starts", argument, 1, 100000);
 		return 0;
 	case SEED:
 		wish->seed = option_count("seed", argument, 0, INT64_MAX);
@@ -207,8 +215,12 @@ static int run(const struct wish *wish, const struct cast *cast, struct shelf *s
 		.finder_count = cast->finder_count,
 		.engines = cast->engines,
 		.engine_count = cast->engine_count,
-		.cases = wish->full ? 20000 : 1000,
-		.starts = wish->full ? 40 : 8,
+		.cases = wish->cases  ? wish->cases
+				 : wish->full ? 20000
+							  : 1000,
+		.starts = (int)(wish->starts ? wish->starts
+						: wish->full ? 40
+									 : 8),
 		.seconds = wish->seconds,
 		.seed = wish->seed,
 		.threads = wish->threads,
