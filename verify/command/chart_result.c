@@ -68,25 +68,55 @@ static void add_engine_table(struct result *result, const struct chart_plan *pla
 
 /* ---- the whole */
 
-/* The names and numbers of all that lie on one frontier of finders, by throughput, and on that of engines. */
-static char *frontier_words(const struct chart_plan *plan, const struct chart *chart, bool engines)
+/* One that lies on a frontier. */
+struct best {
+	const struct finder *finder;
+	double nanoseconds, worth;
+};
+
+static int compare_best(const void *one, const void *other)
 {
-	char *words = NULL;
-	size_t size;
-	FILE *stream = open_memstream(&words, &size);
-	if (!stream) return NULL;
+	double x = ((const struct best *)one)->nanoseconds, y = ((const struct best *)other)->nanoseconds;
+	return (x > y) - (x < y);
+}
+
+/* The frontier of finders by throughput on harvested questions, or that of engines; returns how many there are. */
+static size_t find_best(const struct chart_plan *plan, const struct chart *chart, bool engines, struct best *best)
+{
+	size_t found = 0;
 	for (size_t f = 0; !engines && f < plan->finder_count; f++) {
 		const struct chart_side *side = &chart->finders[f][FAMILY_HARVESTED];
-		if (side->best_bits[0])
-			fprintf(stream, "%s%s %s (%.3g ns, %.3g bits)", ftell(stream) ? "; " : "", plan->finders[f].method,
-					plan->finders[f].arithmetic, side->throughput, side->bits);
+		if (side->best_bits[0]) best[found++] = (struct best){&plan->finders[f], side->throughput, side->bits};
 	}
-	for (size_t e = 0; engines && e < plan->engine_count; e++)
-		if (chart->engines[e].best)
-			fprintf(stream, "%s%s (%.3g ns, %.3g events)", ftell(stream) ? "; " : "", plan->engines[e].arithmetic,
-					chart->engines[e].nanoseconds, chart->engines[e].horizon.mean);
-	fclose(stream);
-	return words;
+	for (size_t e = 0; engines && e < plan->engine_count; e++) {
+		const struct chart_engine *engine = &chart->engines[e];
+		if (engine->best) best[found++] = (struct best){&plan->engines[e], engine->nanoseconds, engine->horizon.mean};
+	}
+	qsort(best, found, sizeof *best, compare_best);
+	return found;
+}
+
+/* A paragraph that goes along a frontier. */
+static void add_best(struct result *result, const struct chart_plan *plan, const struct chart *chart, bool engines)
+{
+	struct best *best = calloc(plan->finder_count + plan->engine_count, sizeof *best);
+	size_t count = best ? find_best(plan, chart, engines, best) : 0, size;
+	char *words = NULL, nanoseconds[DISPLAY_ROOM], worth[DISPLAY_ROOM];
+	FILE *stream = count ? open_memstream(&words, &size) : NULL;
+	for (size_t b = 0; stream && b < count; b++) {
+		display_number(nanoseconds, best[b].nanoseconds, 3);
+		display_number(worth, best[b].worth, 3);
+		fprintf(stream, "%s%s %s (%s ns, %s %s)", b ? "; " : "", best[b].finder->method, best[b].finder->arithmetic,
+				nanoseconds, worth, engines ? "events" : "bits");
+	}
+	if (stream) fclose(stream);
+	if (words)
+		result_paragraph(result, "%s: %s.",
+						 engines ? "Engines, by the cost of an event and the events per particle that can be trusted"
+								 : "Finders than which none is both faster and better, on harvested questions",
+						 words);
+	free(words);
+	free(best);
 }
 
 static void add_words(struct result *result, const struct chart_plan *plan, const struct chart *chart)
@@ -101,14 +131,8 @@ static void add_words(struct result *result, const struct chart_plan *plan, cons
 	result_paragraph(result,
 					 "Questions made to be hard and questions harvested from runs of the engine are kept apart: shares "
 					 "and bits among the former say nothing about how often a simulation meets them.");
-	char *finders = frontier_words(plan, chart, false), *engines = frontier_words(plan, chart, true);
-	if (finders && *finders)
-		result_paragraph(result, "Finders that none other is both faster and better than, on harvested questions: %s.",
-						 finders);
-	if (engines && *engines)
-		result_paragraph(result, "Engines, by cost and the events per particle that can be trusted: %s.", engines);
-	free(finders);
-	free(engines);
+	add_best(result, plan, chart, false);
+	add_best(result, plan, chart, true);
 	result_note(result,
 				"An answer has -log2(|got - exact| / the larger of the two) bits right, infinitely many where "
 				"it is exact and 0 where it is not even of the right size, or later than an event that is now. "

@@ -9,7 +9,7 @@
 #include "measure/frontier.h"
 
 enum {
-	BLOCK = 256,  /* questions of a family at a time */
+	BLOCK = 4096, /* questions of a family at a time: as many as harvested ones are made together */
 	TRIAL = 64,   /* questions of a family that show how long the others will take */
 	TIMED = 2048, /* calls that are timed together */
 	POOL = 8,     /* times as many questions, in turn, so that no branch is predicted from memory */
@@ -58,7 +58,7 @@ static bool add_block(struct work *work, const struct question_source *source, u
 	return true;
 }
 
-/* Some questions of each family after some of each other, so that an end on the way leaves none out. */
+/* Blocks of one family after those of another. */
 static bool add_bits(struct work *work, uint64_t cases, struct progress *progress)
 {
 	for (size_t f = 0; f < CHART_ORIGINS * work->plan->finder_count; f++) finder_bits_begin(&work->bits[f]);
@@ -177,15 +177,20 @@ static void call_finder(void *context, size_t count)
 /* Questions of all families of an origin in turn. */
 static bool mix_questions(struct work *work, enum family_origin origin, question number[POOL * TIMED])
 {
-	const struct family *family[64];
-	size_t families = 0;
+	size_t families = 0, place = 0;
 	char why[160];
-	for (size_t s = 0; s < work->sources && families < 64; s++)
-		if (work->source[s].origin == origin) family[families++] = work->source[s].family;
-	for (size_t k = 0; k < POOL * TIMED; k++)
-		if (!family_fill(family[k % families], shape, work->plan->seed, k / families, 1, &number[k], why))
-			return fail(work, why);
-	return true;
+	for (size_t s = 0; s < work->sources; s++) families += work->source[s].origin == origin;
+	size_t each = (POOL * TIMED + families - 1) / families;
+	question *own = calloc(each, sizeof *own);
+	bool good = own || fail(work, "out of memory");
+	for (size_t s = 0; good && s < work->sources; s++) {
+		if (work->source[s].origin != origin) continue;
+		good = family_fill(work->source[s].family, shape, work->plan->seed, 0, each, own, why) || fail(work, why);
+		for (size_t k = place++, from = 0; good && k < POOL * TIMED; k += families, from++)
+			memcpy(number[k], own[from], sizeof number[k]);
+	}
+	free(own);
+	return good;
 }
 
 /* Times so many of the finders side by side, with `stable` in binary64 among them to compare with. */
