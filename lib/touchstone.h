@@ -79,6 +79,7 @@ struct touchstone_scene {
 	enum touchstone_form form;
 	enum touchstone_search search;
 	double cell;    /* side of a search cell; 0: chosen. Never changes a result */
+	double clock;   /* time at which everything begins, 0 or more: in the absolute form a late one costs precision */
 	unsigned grain; /* significant bits of the places' size, so that it is exact in every arithmetic that is to run
 					   this same scene; 0: as many as the engine's own arithmetic takes */
 };

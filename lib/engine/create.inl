@@ -67,6 +67,7 @@ static void set_scales(struct touchstone_engine *engine, const struct touchstone
 		pull = fmax(pull, fabs(scene->acceleration[axis]));
 	}
 	engine->page_length = INFINITY;
+	engine->now = (struct moment){0, from_double(scene->clock)};
 	if (!relative) return;
 	for (size_t i = 0; i < scene->particle_count; i++)
 		for (int axis = 0; axis < engine->dimensions; axis++)
@@ -76,6 +77,8 @@ static void set_scales(struct touchstone_engine *engine, const struct touchstone
 	if (speed > 0) frexp(engine->largest / speed, &exponent);
 	engine->page_turn = engine->page_length = ldexp(1, exponent - 1);
 	engine->pages_per_time = 1 / engine->page_length;
+	engine->now.page = floor(scene->clock * engine->pages_per_time) * engine->page_length;
+	engine->now.time = from_double(scene->clock - engine->now.page);
 }
 
 /* A position as a place and the rest. */
@@ -162,8 +165,8 @@ static bool set_particles(struct touchstone_engine *engine, const struct touchst
 		set_position(engine, particle->position, body->position, engine->place[i].index);
 		for (int axis = 0; axis < 3; axis++)
 			body->velocity[axis] = from_double(axis < engine->dimensions ? particle->velocity[axis] : 0);
-		body->time = from_double(0);
-		body->page = 0;
+		body->time = engine->now.time;
+		body->page = engine->now.page;
 		engine->place[i].species = particle->species;
 		engine->itinerary[i] = (struct itinerary){.id = id, .meets = MEETS_NOTHING, .time = from_double(0)};
 		engine->index_of[id] = i;
@@ -219,7 +222,6 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	engine->search = scene->search;
 	engine->wanted_cell = scene->cell;
 	engine->digest = first_digest;
-	engine->now.time = from_double(0);
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
 	bool made = set_species_and_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
 	if (made) {

@@ -62,7 +62,7 @@ extern const struct unit THIS_UNIT;
 
 #include "finder/ask.inl"
 
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 #include "finder/ask_vector.inl"
 #else
 #include "finder/ask_single.inl"

@@ -61,8 +61,11 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 		volume *= engine->box[axis];
 		content *= engine->largest;
 	}
-	/* Where particles are far apart, larger cells: crossing one costs more than looking at more neighbours. */
-	double occupancy = 0.45 * pow(content / volume, -1.0 / 3);
+	/* Particles per cell, found by trial: the cells of a search should hold about as many as the sieve takes at once.
+	 * Where spheres are far apart, larger cells: crossing one costs more than looking at more neighbours. */
+	static const double few_neighbours[] = {4, 1.5}; /* in 1 and 2 dimensions */
+	int dimensions = engine->dimensions;
+	double occupancy = dimensions < 3 ? few_neighbours[dimensions - 1] : 0.45 * pow(content / volume, -1.0 / 3);
 	double side = engine->wanted_cell > 0 ? engine->wanted_cell
 										  : pow(volume * occupancy / engine->count, 1.0 / engine->dimensions);
 	side = fmax(side, reach);
@@ -73,6 +76,8 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 		engine->cells.count[axis] = count[axis];
 	}
 	for (uint32_t i = 0; i < engine->count; i++) {
+		const struct body *body = &engine->body[i];
+		engine->itinerary[i].entered = moment_double(engine->now) - (body->page + to_double(body->time));
 		for (int axis = 0; axis < engine->dimensions; axis++) {
 			double coordinate = coordinate_now(engine, i, axis), box = engine->box[axis];
 			if (engine->periodic[axis] && fabs(coordinate) > box / 2) { /* the image that is in the box */

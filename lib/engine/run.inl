@@ -10,6 +10,8 @@ static void out_of_memory(struct touchstone_engine *engine)
 static void cross(struct touchstone_engine *engine, uint32_t i)
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
+	uint8_t face;
+	if (engine->accelerated) itinerary->entered = leaving_wait(engine, i, &face); /* a parabola may pass a face twice */
 	int axis = (itinerary->next - 1) / 2, side = (itinerary->next - 1) % 2 ? 1 : -1;
 	int cell = itinerary->cell[axis] + side, last = engine->cells.count[axis];
 	bool wraps = cell < 1 || cell > last;
@@ -76,7 +78,10 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 		collide(engine, i, partner);
 	else
 		rebound(engine, i, partner);
-	for (int p = 0; p < particles; p++) cast_shadow(engine, met[p]);
+	for (int p = 0; p < particles; p++) {
+		engine->itinerary[met[p]].entered = 0;
+		cast_shadow(engine, met[p]);
+	}
 	predict_all(engine, met, particles);
 	for (int p = 0; p < particles; p++) schedule(engine, met[p]);
 }

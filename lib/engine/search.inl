@@ -137,7 +137,8 @@ static double crossing_time(double gap, double speed, double acceleration, doubl
 {
 	if (acceleration == 0) return speed > 0 ? gap / speed : INFINITY;
 	double radicand = speed * speed + 2 * acceleration * gap;
-	if (radicand < 0) return acceleration < 0 ? INFINITY : fmax(passed, -speed / acceleration);
+	if (radicand < 0 || (radicand == 0 && acceleration < 0)) /* out of reach, or a touch that goes no further */
+		return acceleration < 0 ? INFINITY : fmax(passed, -speed / acceleration);
 	double end = sqrt(radicand);
 	double time = speed > 0 ? 2 * gap / (speed + end) : (end - speed) / acceleration;
 	if (time >= passed) return time;
@@ -161,19 +162,17 @@ static double leaving_along(const struct touchstone_engine *engine, uint32_t i, 
 		bool never = (*upper ? closed_high : closed_low) | (speed == 0);
 		return never ? INFINITY : time;
 	}
-	double gravity = to_double(engine->acceleration[axis]), up = INFINITY, down = INFINITY,
-		   passed = moment_double(engine->now) - (body->page + to_double(body->time));
+	double gravity = to_double(engine->acceleration[axis]), passed = engine->itinerary[i].entered;
+	double up = INFINITY, down = INFINITY;
 	if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
 	if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
 	*upper = up < down;
 	return *upper ? up : down;
 }
 
-/* When, since its page began, a particle leaves its cell, and by which face; INFINITY if it never does. In double for
- * every arithmetic: the cells' slack pays for the rounding. */
-static double leaving(const struct touchstone_engine *engine, uint32_t i, double *page, uint8_t *next)
+/* How long after its last event a particle leaves the cell it is in, and by which face; INFINITY if it never does. */
+static double leaving_wait(const struct touchstone_engine *engine, uint32_t i, uint8_t *next)
 {
-	if (!engine->cells.entry) return INFINITY;
 	double soonest = INFINITY;
 	int face = 0;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
@@ -183,7 +182,15 @@ static double leaving(const struct touchstone_engine *engine, uint32_t i, double
 		soonest = time < soonest ? time : soonest;
 	}
 	*next = (uint8_t)face;
-	soonest += to_double(engine->body[i].time);
+	return soonest;
+}
+
+/* The same as a moment: page, and time since it began. In double for every arithmetic: the cells' slack pays for the
+ * rounding. */
+static double leaving(const struct touchstone_engine *engine, uint32_t i, double *page, uint8_t *next)
+{
+	if (!engine->cells.entry) return INFINITY;
+	double soonest = leaving_wait(engine, i, next) + to_double(engine->body[i].time);
 	double pages = soonest * engine->pages_per_time;
 	if (!(pages < 0x1p52) || soonest == INFINITY) return INFINITY;
 	double turned = pages > 0 ? (double)(int64_t)pages * engine->page_turn : 0;

@@ -24,6 +24,7 @@ struct itinerary {
 	_Alignas(64) num time; /* of its next physical event */
 	double page;
 	double leaves;            /* its cell, if that comes first: since the page began */
+	double entered;           /* its cell: since its last event */
 	uint32_t partner;         /* entry of the other particle, or number of the wall */
 	uint32_t partner_changes; /* of the other, when this was found: if it has had more, this is no longer true */
 	uint32_t changes;         /* of this particle: its events, and its moves to another image */

@@ -20,6 +20,35 @@
 #include "method/compensated.inl"
 #include "method/rounded_fast.inl"
 
+/* stable_meeting() and stable_parting() once more, without branches. */
+static inline __attribute__((always_inline)) double meeting_directly(const struct quadratic *f)
+{
+	double later = f->c / (sqrt(f->discriminant) - f->b);
+	double time = f->discriminant > 0 ? later : INFINITY;
+	time = f->c > 0 ? time : 0;
+	return f->b < 0 ? time : INFINITY;
+}
+
+static inline __attribute__((always_inline)) double parting_directly(const struct quadratic *f)
+{
+	int comes = f->b<0, real = f->discriminant> 0, inside = f->c < 0;
+	double end = sqrt(real ? f->discriminant : 0), over = comes ? end - f->b : -f->c, under = comes ? f->a : f->b + end;
+	double later = over / under, time = (comes | (real & inside)) ? later : 0;
+	return f->a > 0 ? time : INFINITY;
+}
+
+/* What `compensated` answers wherever neither b nor c cancels, NaN elsewhere. */
+static inline __attribute__((always_inline)) double compensated_directly(bool part, const struct balls *balls,
+																		 struct quadratic *f)
+{
+	struct sum sum_of_b = sum_dot(balls->r, balls->v), sum_of_c = sum_c(balls);
+	struct pair a = summed(sum_dot(balls->v, balls->v)), b = summed(sum_of_b), c = summed(sum_of_c);
+	*f = (struct quadratic){a.high, b.high, c.high, pair_discriminant(a, b, c)};
+	double time = part ? parting_directly(f) : meeting_directly(f);
+	int cancel = fabs(b.high) < enough_of(sum_of_b), cancel_too = fabs(c.high) < enough_of(sum_of_c);
+	return (cancel | cancel_too) ? NAN : time;
+}
+
 /* Questions that are turned into columns, one number of all in a row, at a time; they are answered by eights. */
 enum { COLUMN = 64, LANES = 8 };
 
@@ -39,7 +68,6 @@ static inline __attribute__((always_inline)) double answer_one(direct_finder *fi
 static inline __attribute__((always_inline)) void answer_columns(direct_finder *finder, bool part, int count,
 																 column *number, double *time)
 {
-#pragma omp simd
 	for (int k = 0; k < count; k++) time[k] = answer_one(finder, part, number, k);
 }
 

@@ -4,7 +4,7 @@
 /* What the sieve (engine/sieve.h) may leave out under a method, without changing what the method finds. */
 enum sieving {
 	SIEVE_NOTHING,
-	SIEVE_MISSES, /* pairs that surely do not meet; the times it finds may be far off */
+	SIEVE_MISSES, /* pairs that surely do not meet; the times it finds may be far off, or it may find none */
 	SIEVE_ORDER,  /* and those that surely meet later than another pair */
 };
 
@@ -50,11 +50,11 @@ static const struct method methods[METHODS] = {
 
 static const struct method *find_method(const char *name, char error[160])
 {
-	char known[120] = "";
+	char known[112] = "";
 	for (int m = 0; m < METHODS; m++) {
 		if (strcmp(methods[m].name, name) == 0) return &methods[m];
 		snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", m ? ", " : "", methods[m].name);
 	}
-	snprintf(error, 160, "no method '%.20s'; known are %s", name, known);
+	snprintf(error, 160, "no method '%.20s'; known are %.110s", name, known);
 	return NULL;
 }

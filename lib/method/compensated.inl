@@ -2,19 +2,27 @@
  *
  * Source: sums and products with their errors carried along (Ogita, Rump and Oishi, "Accurate sum and dot product",
  * SIAM Journal on Scientific Computing 26(6), 2005: Dot2); where b or c cancels nearly all of what is summed, the terms
- * are sifted until nothing is left to cancel (their Sum-K, with as many passes as it takes). */
+ * are sifted until nothing is left to cancel (their Sum-K, with as many passes as it takes).
+ *
+ * Bound: at most 4 ulp, and no event missed or invented, wherever the discriminant is above 2^-k b^2 in magnitude, k =
+ * 40 (fewer where the precision is below 44 bits: compensated_bits()). With u half an ulp of 1: the discriminant,
+ * rounded, is u off and its root, rounded, 1.5 u; b, c and a, rounded, are u off each; the sum u; together 3.5 u, 4 ulp
+ * with the rounding of the quotient. What twice the precision leaves open adds 13 u^2 2^(k/2) and what cancels in b and
+ * c 2^-4 u, below 0.1 u in all. The largest error that 10^6 inputs of the test showed, 3.14 ulp: ball-leave
+ * 0x1.159e575eae8fap-1 0x1.ae7400a7b25cp-2 0x1.747dac982341ap-1 -0x1.d398d3b7a19d6p-1 -0x1.36a038c8f3de2p-1
+ * -0x1.bd78942184b8dp+0 1 */
 
 struct pair {
 	num high, low; /* high: the sum of the two, rounded */
 };
 
-static inline struct pair pair_sum(num a, num b)
+static inline __attribute__((always_inline)) struct pair pair_sum(num a, num b)
 {
 	num sum = add(a, b);
 	return (struct pair){sum, sum_rest(a, b, sum)};
 }
 
-static inline struct pair pair_product(num a, num b)
+static inline __attribute__((always_inline)) struct pair pair_product(num a, num b)
 {
 	num product = mul(a, b);
 	return (struct pair){product, product_rest(a, b, product)};
@@ -25,32 +33,32 @@ struct sum {
 	num high, rest, size;
 };
 
-static inline struct sum first_term(num x, num y)
+static inline __attribute__((always_inline)) struct sum first_term(num x, num y)
 {
 	struct pair product = pair_product(x, y);
 	return (struct sum){product.high, product.low, magnitude(product.high)};
 }
 
-static inline struct sum next_term(struct sum before, num x, num y)
+static inline __attribute__((always_inline)) struct sum next_term(struct sum before, num x, num y)
 {
 	struct pair product = pair_product(x, y), sum = pair_sum(before.high, product.high);
 	return (struct sum){sum.high, add(before.rest, add(sum.low, product.low)),
 						add(before.size, magnitude(product.high))};
 }
 
-static inline struct sum sum_dot(const num x[3], const num y[3])
+static inline __attribute__((always_inline)) struct sum sum_dot(const num x[3], const num y[3])
 {
 	return next_term(next_term(first_term(x[0], y[0]), x[1], y[1]), x[2], y[2]);
 }
 
 /* r^2 - contact^2 */
-static inline struct sum sum_c(const struct balls *balls)
+static inline __attribute__((always_inline)) struct sum sum_c(const struct balls *balls)
 {
 	return next_term(sum_dot(balls->r, balls->r), balls->contact, negated(balls->contact));
 }
 
 /* Error at most n^2 u^2 size. */
-static inline struct pair summed(struct sum sum)
+static inline __attribute__((always_inline)) struct pair summed(struct sum sum)
 {
 	return pair_sum(sum.high, sum.rest);
 }
@@ -98,13 +106,13 @@ static inline bool cancels(struct pair total, struct sum sum)
 	return less(magnitude(total.high), enough_of(sum));
 }
 
-static inline struct pair compensated_b(const struct balls *balls, struct sum sum)
+static inline __attribute__((always_inline)) struct pair compensated_b(const struct balls *balls, struct sum sum)
 {
 	struct pair total = summed(sum);
 	return cancels(total, sum) ? sifted_dot(3, balls->r, balls->v) : total;
 }
 
-static inline struct pair compensated_c(const struct balls *balls)
+static inline __attribute__((always_inline)) struct pair compensated_c(const struct balls *balls)
 {
 	struct sum sum = sum_c(balls);
 	struct pair total = summed(sum);
@@ -125,7 +133,7 @@ static inline num pair_discriminant(struct pair a, struct pair b, struct pair c)
 	return add(difference.high, add(difference.low, sub(square.low, product.low)));
 }
 
-static inline num compensated_ball_ball(const struct balls *balls, struct quadratic *f)
+static inline __attribute__((always_inline)) num compensated_ball_ball(const struct balls *balls, struct quadratic *f)
 {
 	struct sum sum = sum_dot(balls->r, balls->v);
 	f->b = sum.high;
@@ -140,7 +148,7 @@ static inline num compensated_ball_ball(const struct balls *balls, struct quadra
 	return stable_meeting(f);
 }
 
-static inline num compensated_ball_leave(const struct balls *balls, struct quadratic *f)
+static inline __attribute__((always_inline)) num compensated_ball_leave(const struct balls *balls, struct quadratic *f)
 {
 	struct pair a = summed(sum_dot(balls->v, balls->v)), b = compensated_b(balls, sum_dot(balls->r, balls->v)),
 				c = compensated_c(balls);
@@ -148,17 +156,8 @@ static inline num compensated_ball_leave(const struct balls *balls, struct quadr
 	return stable_parting(f);
 }
 
-/* The same times wherever neither b nor c cancels, NaN elsewhere: for many at once (finder/batch.c). */
-static inline num compensated_directly(bool part, const struct balls *balls, struct quadratic *f)
-{
-	struct sum sum_of_b = sum_dot(balls->r, balls->v), sum_of_c = sum_c(balls);
-	struct pair a = summed(sum_dot(balls->v, balls->v)), b = summed(sum_of_b), c = summed(sum_of_c);
-	*f = (struct quadratic){a.high, b.high, c.high, pair_discriminant(a, b, c)};
-	num time = part ? stable_parting(f) : stable_meeting(f);
-	return cancels(b, sum_of_b) | cancels(c, sum_of_c) ? from_double(NAN) : time;
-}
-
-static inline num compensated_ball_plane(const struct flight *flight, struct quadratic *f)
+static inline __attribute__((always_inline)) num compensated_ball_plane(const struct flight *flight,
+																		struct quadratic *f)
 {
 	struct pair a = {flight->acceleration, from_double(0)}, b = {flight->speed, from_double(0)};
 	struct pair c = pair_sum(flight->distance, negated(flight->contact));

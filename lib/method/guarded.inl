@@ -4,7 +4,11 @@
  * Source: the simulator that papers/collision-readme.txt describes. The guards are meant to keep divisions sound and
  * pairs that have just met from meeting again at once; what they do is lose pairs: two balls that overlap by one
  * rounding error pass through each other, and so do balls that are slow in the units of the scene. The first guard has
- * a meaning for balls only; a plane or a half-space loses what is beyond it. */
+ * a meaning for balls only; a plane or a half-space loses what is beyond it.
+ *
+ * Bound: never negative, and a number for all that does not overflow. Witnesses, both missed, one by each guard:
+ *     ball-ball 0x1.fffffffffffffp-1 0 0 -1 0 0 1
+ *     ball-ball 2 0 0 -0x1p-27 0 0 1 */
 
 static inline num guarded_ball_ball(const struct balls *balls, struct quadratic *f)
 {

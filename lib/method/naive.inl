@@ -2,7 +2,11 @@
  *
  * Source: 2014 paper, section 3 (eq. 7, the earlier root) and eq. 12 (the largest root over a plate). A pair that
  * overlaps and approaches gives a negative time; a ball that cannot leave the plate gives no number at all. Both
- * halt a run by this method: there is no answer to go on with. */
+ * halt a run by this method: there is no answer to go on with.
+ *
+ * Bound: none. Witnesses, one negative by 2^-53 and one that is no number:
+ *     ball-ball 0x1.fffffffffffffp-1 0 0 -1 0 0 1
+ *     ball-plane 0x1.fffffffffffffp-2 0 -1 0x1p-1 */
 
 static inline num naive_ball_ball(const struct balls *balls, struct quadratic *f)
 {

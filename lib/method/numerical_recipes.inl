@@ -1,7 +1,13 @@
 /* numerical-recipes: q = -(B + sgn(B) sqrt(B^2 - 4 a c)) / 2 with B = 2 b, roots q / a and c / q.
  *
  * Source: Press, Teukolsky, Vetterling and Flannery, "Numerical Recipes", 3rd edition, 2007, eqs. 5.6.4 and 5.6.5; the
- * GNU Scientific Library has the same. */
+ * GNU Scientific Library has the same.
+ *
+ * Bound: none. Witnesses, one negative by 2^-53, one invented, and one that is no number, where
+ * B^2 overflows:
+ *     ball-ball 0x1.fffffffffffffp-1 0 0 -1 0 0 1
+ *     ball-ball -0x1.fe8adeff2cb38p+1 0x1.29e3db2c33b4cp-1 0 1 0 0 0x1.29e3db2c33b49p-1
+ *     ball-ball 0x1p400 0 0 -0x1p200 0 0 1 */
 
 static inline struct roots numerical_recipes(struct quadratic *f)
 {

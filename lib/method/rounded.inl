@@ -9,9 +9,10 @@
  * in itself.
  *
  * Bound: half a unit in the last place; no event missed, none invented. A question with a number that is not finite is
- * answered by NaN. */
+ * answered by NaN. Attained wherever a time lies half way between two numbers:
+ *     half-space 0x1p-1074 -2 */
 
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 #include "method/rounded_fast.inl"
 #endif
 
@@ -67,27 +68,27 @@ static num rounded_balls_exactly(enum touchstone_shape shape, const struct balls
 	return rounded_exactly(shape, 7, numbers, f);
 }
 
-static inline num rounded_ball_ball(const struct balls *balls, struct quadratic *f)
+static inline __attribute__((always_inline)) num rounded_ball_ball(const struct balls *balls, struct quadratic *f)
 {
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 	double fast = fast_balls(false, balls, f);
 	if (!isnan(fast)) return fast;
 #endif
 	return rounded_balls_exactly(TOUCHSTONE_BALL_BALL, balls, f);
 }
 
-static inline num rounded_ball_leave(const struct balls *balls, struct quadratic *f)
+static inline __attribute__((always_inline)) num rounded_ball_leave(const struct balls *balls, struct quadratic *f)
 {
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 	double fast = fast_balls(true, balls, f);
 	if (!isnan(fast)) return fast;
 #endif
 	return rounded_balls_exactly(TOUCHSTONE_BALL_LEAVE, balls, f);
 }
 
-static inline num rounded_ball_plane(const struct flight *flight, struct quadratic *f)
+static inline __attribute__((always_inline)) num rounded_ball_plane(const struct flight *flight, struct quadratic *f)
 {
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 	double fast = fast_plane(flight, f);
 	if (!isnan(fast)) return fast;
 #endif
@@ -98,7 +99,7 @@ static inline num rounded_ball_plane(const struct flight *flight, struct quadrat
 /* In binary64 the one quotient of the stable rule is rounded correctly already. */
 static inline num rounded_half_space(const struct passage *passage, struct quadratic *f)
 {
-#ifdef NUM_HAS_LANES
+#ifdef NUM_HAS_BATCHES
 	if (isfinite(passage->distance) && isfinite(passage->speed)) return stable_half_space(passage, f);
 #endif
 	const num numbers[] = {passage->distance, passage->speed};

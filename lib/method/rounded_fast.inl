@@ -100,23 +100,24 @@ static inline __attribute__((always_inline)) double known_quotient(struct known 
 	return same ? quotient.high : NAN;
 }
 
-static inline __attribute__((always_inline)) bool negative(struct known x)
+/* Truth in these is an int: & and | are meant, and no branch. */
+static inline __attribute__((always_inline)) int negative(struct known x)
 {
 	return x.high < -2 * x.error;
 }
 
-static inline __attribute__((always_inline)) bool positive(struct known x)
+static inline __attribute__((always_inline)) int positive(struct known x)
 {
 	return x.high > 2 * x.error;
 }
 
 /* Not positive, and not negative: an x that is known exactly may be zero. */
-static inline __attribute__((always_inline)) bool at_most_zero(struct known x)
+static inline __attribute__((always_inline)) int at_most_zero(struct known x)
 {
 	return x.high <= -2 * x.error;
 }
 
-static inline __attribute__((always_inline)) bool at_least_zero(struct known x)
+static inline __attribute__((always_inline)) int at_least_zero(struct known x)
 {
 	return x.high >= 2 * x.error;
 }
@@ -128,11 +129,11 @@ static inline __attribute__((always_inline)) double fast_meeting(struct known a,
 	struct known discriminant = known_discriminant(a, b, c);
 	*f = (struct quadratic){a.high, b.high, c.high, discriminant.high};
 	double time = known_quotient(c, known_sum(b, discriminant));
-	bool comes = negative(b), outside = comes & positive(c);
-	bool never = at_least_zero(b) | (outside & at_most_zero(discriminant));
-	time = outside & positive(discriminant) ? time : NAN;
+	int comes = negative(b), outside = comes & positive(c);
+	int never = at_least_zero(b) | (outside & at_most_zero(discriminant));
+	time = (outside & positive(discriminant)) ? time : NAN;
 	time = never ? INFINITY : time;
-	return comes & at_most_zero(c) ? 0 : time;
+	return (comes & at_most_zero(c)) ? 0 : time;
 }
 
 /* The rule of stable_parting(). */
@@ -141,17 +142,17 @@ static inline __attribute__((always_inline)) double fast_parting(struct known a,
 {
 	struct known discriminant = known_discriminant(a, b, c);
 	*f = (struct quadratic){a.high, b.high, c.high, discriminant.high};
-	bool comes = negative(b), goes = at_least_zero(b);
+	int comes = negative(b), goes = at_least_zero(b);
 	struct known sum = known_sum(b, discriminant), fall = {-c.high, -c.low, c.error};
 	struct known over = {comes ? sum.high : fall.high, comes ? sum.low : fall.low, comes ? sum.error : fall.error};
 	struct known under = {comes ? a.high : sum.high, comes ? a.low : sum.low, comes ? a.error : sum.error};
 	double time = known_quotient(over, under);
-	bool settled = positive(a) & (positive(discriminant) | (comes & at_most_zero(discriminant)));
-	time = settled & (comes | (goes & negative(c))) ? time : NAN;
-	return goes & at_least_zero(c) & positive(a) ? 0 : time;
+	int settled = positive(a) & (positive(discriminant) | (comes & at_most_zero(discriminant)));
+	time = (settled & (comes | (goes & negative(c)))) ? time : NAN;
+	return (goes & at_least_zero(c) & positive(a)) ? 0 : time;
 }
 
-static inline __attribute__((always_inline)) bool middling(double size)
+static inline __attribute__((always_inline)) int middling(double size)
 {
 	return (size >= 0x1p-200) & (size <= 0x1p200);
 }
@@ -163,10 +164,10 @@ static inline __attribute__((always_inline)) double fast_balls(bool part, const 
 	struct running rr = plus_product(running_dot(balls->r, balls->r), balls->contact, -balls->contact);
 	struct known a = total(vv), b = total(rv), c = total(rr);
 	double time = part ? fast_parting(a, b, c, f) : fast_meeting(a, b, c, f);
-	return middling(vv.size) & middling(rv.size) & middling(rr.size) ? time : NAN;
+	return (middling(vv.size) & middling(rv.size) & middling(rr.size)) ? time : NAN;
 }
 
-static inline __attribute__((always_inline)) bool zero_or_near(double x)
+static inline __attribute__((always_inline)) int zero_or_near(double x)
 {
 	return (x == 0) | ((fabs(x) >= 0x1p-100) & (fabs(x) <= 0x1p100));
 }
@@ -180,7 +181,7 @@ static inline __attribute__((always_inline)) double fast_plane(const struct flig
 	struct known c = {falls ? -2 * gap.high : 2 * gap.high, falls ? -2 * gap.low : 2 * gap.low, 0};
 	double time = falls ? fast_parting(a, b, c, f) : fast_meeting(a, b, c, f);
 	*f = (struct quadratic){acceleration, speed, gap.high, f->discriminant};
-	bool near = zero_or_near(flight->distance) & zero_or_near(flight->contact) & zero_or_near(speed) &
-				zero_or_near(acceleration);
+	int near = zero_or_near(flight->distance) & zero_or_near(flight->contact) & zero_or_near(speed) &
+			   zero_or_near(acceleration);
 	return near ? time : NAN;
 }

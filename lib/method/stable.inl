@@ -4,6 +4,11 @@
  * and 2 (whose two last forms are exchanged: each root is written here in the form that does not cancel).
  * Where that set is open (a ball too slow to leave the plate) the time is its infimum, as in the algorithms.
  *
+ * Bound: never negative, and a number for all that does not overflow. What rounding did to f is not undone: near a
+ * graze the discriminant may have any error and any sign. Witnesses (binary64), one missed and one invented:
+ *     ball-ball -0x1.20ead74f39b9bp+2 0x1.7369d85fc87fap+0 0 1 0 0 0x1.7369d85fc87fcp+0
+ *     ball-ball -0x1.fe8adeff2cb38p+1 0x1.29e3db2c33b4cp-1 0 1 0 0 0x1.29e3db2c33b49p-1
+ *
  * The rule is a function of the signs and sizes of f's parts, whatever precision those were formed in. */
 
 /* Balls meet: the earlier root. */

@@ -3,8 +3,11 @@
  *
  * Source: Sterbenz, "Floating-Point Computation", 1974, with Kahan's discriminant as in Goualard, "The ins and outs of
  * solving quadratic equations with floating-point arithmetic", 2023. From given a, b and c nothing overflows or
- * underflows on the way (at most 1.8 ulp in the trials that verify/test/finder_test.c repeats); what overflowed while
- * a, b and c were formed is lost, as for every solver. */
+ * underflows on the way; what rounding and the range did to a, b and c before is not undone.
+ *
+ * Bound: none over r and v. Witnesses, one negative by 2^-53 and one missed:
+ *     ball-ball 0x1.fffffffffffffp-1 0 0 -1 0 0 1
+ *     ball-ball -0x1.20ead74f39b9bp+2 0x1.7369d85fc87fap+0 0 1 0 0 0x1.7369d85fc87fcp+0 */
 
 static inline struct roots sterbenz(struct quadratic *f)
 {

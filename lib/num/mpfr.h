@@ -9,6 +9,8 @@
 
 #include <mpfr.h>
 #include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
 
 #ifndef NUM_LIMBS
 #error "define NUM_LIMBS, the 64-bit limbs of a significand, before including num/mpfr.h"
@@ -79,12 +81,24 @@ static inline num num_apply(num_operation *operation, num *a, num *b)
 	return result;
 }
 
-/* Rounded to nearest, ties to even. */
+/* Rounded to nearest, ties to even. What fits is laid out here, for it is asked for often: the first bit of a
+ * significand is the first bit of the last limb. */
 static inline num from_double(double value)
 {
 	num result;
 	mpfr_t header;
 	num_expose_result(header, &result);
+	uint64_t word;
+	memcpy(&word, &value, sizeof word);
+	int biased = (int)(word >> 52 & 0x7ff), limbs = (result.precision + 63) / 64;
+	if (word << 1 == 0 || (biased > 0 && biased < 0x7ff && result.precision >= 53)) {
+		result.kind = word << 1 == 0 ? MPFR_ZERO_KIND : MPFR_REGULAR_KIND;
+		if (word >> 63) result.kind = -result.kind;
+		result.exponent = biased - 1022;
+		for (int l = 0; l < limbs - 1; l++) result.limbs[l] = 0;
+		result.limbs[limbs - 1] = UINT64_C(1) << 63 | word << 11;
+		return result;
+	}
 	mpfr_set_d(header, value, MPFR_RNDN);
 	num_collect(&result, header);
 	return result;
@@ -93,6 +107,20 @@ static inline num from_double(double value)
 /* Rounded to nearest, ties to even, once: to a subnormal double as well. */
 static inline double to_double(num x)
 {
+	bool regular = x.kind == MPFR_REGULAR_KIND || x.kind == -MPFR_REGULAR_KIND;
+	if (regular && x.exponent > -1021 && x.exponent < 1024) { /* far from both ends of a double's range */
+		int limbs = (x.precision + 63) / 64;
+		uint64_t first = x.limbs[limbs - 1], more = 0;
+		for (int l = 0; l < limbs - 1; l++) more |= x.limbs[l];
+		uint64_t kept = first >> 11, rest = first << 53 | (more != 0), half = UINT64_C(1) << 63;
+		kept += rest > half || (rest == half && (kept & 1));
+		uint64_t word = ((uint64_t)(x.exponent + 1021) << 52) + kept; /* the leading bit counts one exponent up */
+		if (x.kind < 0) word |= half;
+		double value;
+		memcpy(&value, &word, sizeof value);
+		return value;
+	}
+	if (x.kind == MPFR_ZERO_KIND) return 0;
 	mpfr_t header;
 	num_expose(header, &x);
 	return mpfr_get_d(header, MPFR_RNDN);
@@ -145,6 +173,8 @@ static inline num magnitude(num a)
 /* Whether a < b; false when either is not a number. */
 static inline bool less(num a, num b)
 {
+	if (b.kind == MPFR_ZERO_KIND) return a.kind == -MPFR_REGULAR_KIND || a.kind == -MPFR_INF_KIND;
+	if (a.kind == MPFR_ZERO_KIND) return b.kind == MPFR_REGULAR_KIND || b.kind == MPFR_INF_KIND;
 	mpfr_t header_a, header_b;
 	num_expose(header_a, &a);
 	num_expose(header_b, &b);

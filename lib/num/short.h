@@ -164,14 +164,14 @@ static inline void to_mpfr(mpfr_ptr exact, num x)
 static inline num from_mpfr(mpfr_srcptr x)
 {
 	if (!mpfr_regular_p(x)) return mpfr_get_d(x, MPFR_RNDN);
+	double sign = mpfr_signbit(x) ? -1 : 1, smallest = ldexp(1, DBL_MIN_EXP - num_bits());
 	long below = DBL_MIN_EXP - mpfr_get_exp(x), bits = num_bits() - (below > 0 ? below : 0);
-	if (bits < 0) return mpfr_signbit(x) ? -0.0 : 0.0;
+	if (bits < 0) return sign * 0;
+	if (bits == 0)
+		return mpfr_min_prec(x) > 1 ? sign * smallest : sign * 0; /* above half the smallest number, or half */
 	mpfr_t kept;
-	mpfr_init2(kept, bits > 0 ? bits : 1);
-	if (bits > 0)
-		mpfr_set(kept, x, MPFR_RNDN);
-	else /* between a half and the whole of the smallest number */
-		mpfr_set_si_2exp(kept, mpfr_sgn(x) * (mpfr_min_prec(x) > 1), mpfr_get_exp(x), MPFR_RNDN);
+	mpfr_init2(kept, bits);
+	mpfr_set(kept, x, MPFR_RNDN);
 	double result = mpfr_get_d(kept, MPFR_RNDN);
 	mpfr_clear(kept);
 	return result;

@@ -159,7 +159,7 @@ static inline num fused(num a, num b, num c)
 	return add(sum, add(rest, sum_rest(product, c, sum)));
 }
 
-/* x = f 2^exponent with 1/2 <= |f| < 1; 0 for zero. */
+/* The high part is f 2^exponent with 1/2 <= |f| < 1; 0 for zero. */
 static inline long exponent_of(num x)
 {
 	int exponent;

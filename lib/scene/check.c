@@ -117,6 +117,8 @@ bool scene_check_frame(const struct touchstone_scene *scene, struct scene_error 
 	if (!(scene->cell >= 0) || !isfinite(scene->cell))
 		return scene_refuse(error, "cell", SIZE_MAX, "%g; accepted: a finite number above 0, or 0 to have it chosen",
 							scene->cell);
+	if (!(scene->clock >= 0) || !isfinite(scene->clock))
+		return scene_refuse(error, "clock", SIZE_MAX, "%g; accepted: a finite number, 0 or more", scene->clock);
 	return true;
 }
 

@@ -179,6 +179,7 @@ bool scene_build(const struct scene_recipe *recipe, uint64_t seed, struct touchs
 		.form = recipe->form,
 		.search = recipe->search,
 		.cell = recipe->cell,
+		.clock = recipe->clock,
 	};
 	if (!check_recipe(recipe, error)) return false;
 	memcpy(scene->acceleration, recipe->acceleration, sizeof scene->acceleration);

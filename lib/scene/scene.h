@@ -53,7 +53,7 @@ struct scene_recipe {
 	const struct touchstone_particle *particles; /* particle_count of them, when any part is given */
 	enum touchstone_form form;
 	enum touchstone_search search;
-	double cell;
+	double cell, clock;
 };
 
 /* Why a scene cannot be. `key` is the part of the recipe that is to blame, in the words of a scene file, such as

@@ -368,6 +368,8 @@ static void precision_belongs_to_its_thread(void **state)
 	assert_int_equal(num_bits(), precisions[0]);
 }
 
+#include "num_rests.inl"
+
 static int run_num_tests(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -378,6 +380,9 @@ static int run_num_tests(void)
 		cmocka_unit_test(from_double_rounds_to_nearest_even),
 		cmocka_unit_test(to_double_rounds_to_nearest_even),
 		cmocka_unit_test(numbers_are_values),
+		cmocka_unit_test(rests_are_what_rounding_left_out),
+		cmocka_unit_test(mpfr_and_back),
+		cmocka_unit_test(exponents),
 		cmocka_unit_test(only_precisions_on_offer_are_chosen),
 		cmocka_unit_test(precision_belongs_to_its_thread),
 	};

@@ -1,5 +1,5 @@
 #include "num/binary64.h"
 
-#define NUM_HAS_LANES
+#define NUM_HAS_BATCHES
 #define THIS_UNIT unit_binary64
 #include "engine/engine.inl"

@@ -33,13 +33,13 @@ enum { ARITHMETICS = sizeof arithmetics / sizeof *arithmetics };
 static const struct figure_entry methods[] = {
 	{"stable", "2014 paper, algorithms 1 and 2: an event when bodies touch or overlap, and approach"},
 	{"naive", "2014 paper, eq. 12 and section 3: textbook roots, whatever the rounding made of them"},
-	{"guarded", "the guards of a simulator: no event when a < 2^-52 or c < 0"},
-	{"compensated", "the stable rule over coefficients formed in twice the precision"},
-	{"rounded", "the correctly rounded time, for all numbers there are"},
-	{"numerical-recipes", "balls only, for grade: roots q / a and c / q, as in the book and in GSL"},
-	{"kahan", "balls only, for grade: the discriminant by two fused multiply-adds"},
-	{"sterbenz", "balls only, for grade: the same, scaled by powers of two"},
-	{"textbook-epsilon", "balls only, for grade: Ericson's, with an epsilon for what hardly moves"},
+	{"guarded", "a simulator's guards: slow balls and balls that overlap have no event"},
+	{"compensated", "the stable rule over a, b, c and a discriminant formed in twice the precision"},
+	{"rounded", "the time of the stable rule, correctly rounded"},
+	{"numerical-recipes", "finder only: Press and others, eqs. 5.6.4 and 5.6.5"},
+	{"kahan", "finder only: Kahan's discriminant, by fused multiply-adds"},
+	{"sterbenz", "finder only: Sterbenz's scaling, then as kahan"},
+	{"textbook-epsilon", "finder only: two moving balls as in Ericson, section 5.5.5"},
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 

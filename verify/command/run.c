@@ -21,7 +21,7 @@ enum { ARITHMETIC = 256, METHOD, EVENTS, TIME, SEED, SET, EXPLAIN, JSON, XYZ, ME
 static const struct argp_option options[] = {
 	{"arithmetic", ARITHMETIC, "A", 0,
 	 "Arithmetic of the engine, such as binary64 or mpfr:200; `touchstone list` has all", 1},
-	{"method", METHOD, "M", 0, "Method that finds events: stable, naive", 1},
+	{"method", METHOD, "M", 0, "Method that finds events, such as stable or naive; `touchstone list` has all", 1},
 	{"events", EVENTS, "N", 0,
 	 "Events to execute, such as 1e6 (those of the scene, or else 100 per particle). With 0 nothing is run, not even "
 	 "equilibration",

@@ -137,6 +137,10 @@ int oracle_compare_double(struct oracle *oracle, const struct oracle_time *time,
  * phantom or a missed event, to be counted as such), and NaN for a NaN. */
 double oracle_error(struct oracle *oracle, const struct oracle_time *time, double got);
 
+/* |b^2 - a c| / b^2, how far a query is from a graze (for planes with c = 2 h; 1 for a half-space), from exact
+ * integers, to a relative 1e-12. Infinite for b = 0. */
+double oracle_graze(struct oracle *oracle, const struct oracle_query *query);
+
 /* The distance left at a time t: |r + v t| - |contact| for balls, f(t) for planes, from exact integers, to a relative
  * 1e-12 where it is a normal double. NaN when t is not finite. */
 double oracle_gap(struct oracle *oracle, const struct oracle_query *query, double t);

@@ -106,25 +106,32 @@ static enum oracle_event part(struct oracle *oracle, struct surd *surd)
 	return ORACLE_LATER;
 }
 
-enum oracle_event exact_solve(struct oracle *oracle, const struct oracle_query *query, struct surd *surd)
+/* Fills a, b and c; returns the exponent of the unit of time. */
+static long read_query(struct oracle *oracle, const struct oracle_query *query)
 {
 	assert(oracle_accepts(query)); /* the filter accepts no others */
+	if (query->shape == ORACLE_BALL_BALL || query->shape == ORACLE_BALL_LEAVE) return read_balls(oracle, query);
+	bool accelerated = query->shape == ORACLE_BALL_PLANE;
+	return read_plane(oracle, query->plane.distance, query->plane.speed, accelerated ? query->plane.acceleration : 0,
+					  accelerated ? query->plane.contact : 0);
+}
+
+enum oracle_event exact_solve(struct oracle *oracle, const struct oracle_query *query, struct surd *surd)
+{
 	oracle->exact_count++;
-	double acceleration = 0, contact = 0;
-	switch (query->shape) {
-	case ORACLE_BALL_BALL:
-		surd->exponent = read_balls(oracle, query);
-		return meet(oracle, surd);
-	case ORACLE_BALL_LEAVE:
-		surd->exponent = read_balls(oracle, query);
-		return part(oracle, surd);
-	case ORACLE_BALL_PLANE:
-		acceleration = query->plane.acceleration;
-		contact = query->plane.contact;
-		break;
-	case ORACLE_HALF_SPACE:
-		break;
-	}
-	surd->exponent = read_plane(oracle, query->plane.distance, query->plane.speed, acceleration, contact);
-	return acceleration < 0 ? part(oracle, surd) : meet(oracle, surd);
+	surd->exponent = read_query(oracle, query);
+	bool parts =
+		query->shape == ORACLE_BALL_LEAVE || (query->shape == ORACLE_BALL_PLANE && query->plane.acceleration < 0);
+	return parts ? part(oracle, surd) : meet(oracle, surd);
+}
+
+double oracle_graze(struct oracle *oracle, const struct oracle_query *query)
+{
+	long scale, other_scale;
+	read_query(oracle, query);
+	find_discriminant(oracle);
+	mpz_mul(oracle->scratch[0], oracle->b, oracle->b);
+	if (mpz_sgn(oracle->b) == 0) return INFINITY;
+	double ratio = mpz_get_d_2exp(&scale, oracle->discriminant) / mpz_get_d_2exp(&other_scale, oracle->scratch[0]);
+	return fabs(ldexp(ratio, (int)(scale - other_scale)));
 }

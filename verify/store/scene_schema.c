@@ -69,6 +69,7 @@ static const cyaml_schema_field_t fields[] = {
 	CYAML_FIELD_ENUM_PTR("form", CHOICE, struct scene_words, form, forms, CYAML_ARRAY_LEN(forms)),
 	CYAML_FIELD_ENUM_PTR("search", CHOICE, struct scene_words, search, searches, CYAML_ARRAY_LEN(searches)),
 	CYAML_FIELD_STRING_PTR("cell", WORD, struct scene_words, cell, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("clock", WORD, struct scene_words, clock, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("events", WORD, struct scene_words, events, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("time", WORD, struct scene_words, time, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_END};

@@ -25,7 +25,7 @@ struct start_words {
 
 struct scene_words {
 	char *title, *about, *dimensions, *particles, *density, *restitution, *boundary_restitution;
-	char *equilibrate, *seed, *method, *arithmetic, *cell, *events, *time;
+	char *equilibrate, *seed, *method, *arithmetic, *cell, *clock, *events, *time;
 	int *form, *search; /* enum touchstone_form, enum touchstone_search */
 	char **box, **gravity;
 	int *boundaries; /* enum scene_boundary */

@@ -352,7 +352,8 @@ static bool read_run(struct scene_file *file, char *error)
 		   read_count(file, "events", words->events, 0, UINT64_MAX, &file->limits.events, error) &&
 		   read_number(file, "time", words->time, NOT_NEGATIVE, &file->limits.time, error) &&
 		   read_number(file, "equilibrate", words->equilibrate, NOT_NEGATIVE, &file->equilibrate, error) &&
-		   read_number(file, "cell", words->cell, NOT_NEGATIVE, &file->recipe.cell, error);
+		   read_number(file, "cell", words->cell, NOT_NEGATIVE, &file->recipe.cell, error) &&
+		   read_number(file, "clock", words->clock, NOT_NEGATIVE, &file->recipe.clock, error);
 }
 
 bool scene_words_understand(struct scene_file *file, char error[STORE_ERROR])

@@ -120,7 +120,7 @@ static void bad_usage_is_one_line(void **state)
 		{"run hard-spheres --runs 0", "--runs: '0'; accepted: a whole number, 1 to"},
 		{"run hard-spheres --threads many", "--threads: 'many'"},
 		{"run hard-spheres --measure impact,colour", "--measure: 'colour'; accepted: impact, conservation"},
-		{"run hard-spheres --method fast", "method: no method 'fast'; known are stable, naive"},
+		{"run hard-spheres --method fast", "method: no method 'fast'; known are stable, naive, guarded"},
 		{"run hard-spheres --arithmetic decimal", "arithmetic: no arithmetic 'decimal'; known are"},
 		{"run hard-spheres --arithmetic mpfr:0", "mpfr:P from 2 to 1024"},
 		{"run hard-spheres --arithmetic mpfr:99999", "mpfr:P from 2 to 1024"},
