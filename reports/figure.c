@@ -23,7 +23,7 @@ EMBED(plot_frontier, "plots/frontier.gp");
 
 static const struct kind {
 	const char *name, *script;
-	const char *columns[5]; /* handed to the script in this order */
+	const char *columns[6]; /* handed to the script in this order; NULL after the last */
 } kinds[] = {
 	{"impact-histogram", plot_impact_histogram, {"left", "right", "height"}},
 	{"trajectory", plot_trajectory, {"time", "height", "remaining"}},
