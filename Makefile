@@ -100,7 +100,7 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/object/verify/command/reproduce.o $(BUILD)/object/verify/command/grade.o $(BUILD)/object/verify/bench/main.o: CPPFLAGS += \
+$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart bench/main): CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
 # Templates and plot scripts are part of the program.

@@ -234,6 +234,12 @@ bool touchstone_find(const char *arithmetic, const char *method, enum touchstone
 					 const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count, bool chained, double *times,
 					 char error[160]);
 
+/* The same answers, one question after the other and unrounded: times[k] receives doubles whose exact sum is the wait,
+ * the nearest double to it first, filled with zeros. */
+bool touchstone_find_terms(const char *arithmetic, const char *method, enum touchstone_shape shape,
+						   const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count,
+						   double (*times)[TOUCHSTONE_MOST_TERMS], char error[160]);
+
 /* What a finder of balls or plane forms on its way to an answer, rounded to double: f(t) = a t^2 + 2 b t + c for balls,
  * a t^2 / 2 + b t + c for a plane; NaN for what it does not form. */
 struct touchstone_steps {

@@ -134,6 +134,7 @@ const struct unit THIS_UNIT = {
 	.explain = engine_explain,
 	.drop = unit_drop,
 	.find = unit_find,
+	.find_terms = unit_find_terms,
 	.find_steps = unit_find_steps,
 	.claim = unit_claim,
 	.exact_count = exact_count,
