@@ -2,12 +2,14 @@
 #
 #   make report            the papers' figures at quick size, as pages in build/report
 #   make test              all tests, also under sanitizers, and the digests of other compilers and optimisations
+#   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
 #   make soak              10^9 answers of the correctly rounded finder against the exact oracle; QUESTIONS=1e7 for fewer
 #   make CC=clang          another compiler               make BUILD=build/other   another place
 #   make clean, make format
 
 BUILD    := build
 CORES    := $(shell nproc)
+BASELINE  = $(BUILD)/bench-baseline.json
 CC       := gcc
 OPTIMISE := -O3
 WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
@@ -19,15 +21,16 @@ LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -
 sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
+BENCH    := verify/bench/main.c
 LIBRARY  := $(call objects,$(call sources,lib))
-PARTS    := $(call objects,$(filter-out $(MAIN),$(call sources,verify reports)))
+PARTS    := $(call objects,$(filter-out $(MAIN) $(BENCH),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
 
 # Finders by others: the worked example, as C11 and as C++, and some that do everything wrong.
 PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
 	$(BUILD)/plugins/example_cxx.so
 
-.PHONY: all report test check soak sanitize digests format clean
+.PHONY: all report test bench check soak sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -50,6 +53,14 @@ check: $(BUILD)/touchstone $(TESTS)
 	@printf '%s\n' $(TESTS) | OMP_WAIT_POLICY=passive xargs -P $(CORES) -n 1 sh -c \
 		'if "$$0" >"$$0.log" 2>&1 </dev/null; then told=0; else told=1; fi; \
 		echo "== $$0"; cat "$$0.log"; exit $$told'
+
+# Valgrind is taken if it can be had; without it all but the instructions is measured.
+bench:
+	@.ci/setup report
+	@.ci/setup bench || echo 'bench: instructions will not be counted'
+	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone $(BUILD)/bench
+	$(BUILD)/bench --baseline $(BASELINE) --results $(BUILD)/results $(if $(FULL),--full) $(if $(STORE),--store)
+	$(BUILD)/touchstone report --results $(BUILD)/results --output $(BUILD)/report
 
 soak: $(BUILD)/verify/soak/rounded_soak
 	$< $(QUESTIONS)
@@ -75,8 +86,10 @@ prepared: $(BUILD)/touchstone $(TESTS)
 # V=1 shows the whole commands.
 say = @$(if $(V),,echo '  $(1)';)$(if $(V),set -x;)
 
-$(BUILD)/touchstone: $(call objects,$(MAIN)) $(BUILD)/parts.a $(BUILD)/libtouchstone.a
-	$(call say,link $@) $(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+$(BUILD)/touchstone: $(call objects,$(MAIN))
+$(BUILD)/bench: $(call objects,$(BENCH))
+$(BUILD)/touchstone $(BUILD)/bench: $(BUILD)/parts.a $(BUILD)/libtouchstone.a
+	$(call say,link $@) $(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS)
 
 $(BUILD)/libtouchstone.a: $(LIBRARY)
 $(BUILD)/parts.a: $(PARTS)
@@ -87,7 +100,7 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/object/verify/command/reproduce.o $(BUILD)/object/verify/command/grade.o: CPPFLAGS += \
+$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart bench/main): CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
 # Templates and plot scripts are part of the program.
@@ -103,12 +116,13 @@ $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 # gcc makes selections of vectors only where nobody minds floating-point traps; no value depends on it.
 $(BUILD)/object/lib/finder/batch.o: CFLAGS += -fno-trapping-math
 
-$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"'
+$(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"' \
+	-DTOUCHSTONE_BENCH='"$(BUILD)/bench"'
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
 
-$(TESTS): | $(PLUGINS)
+$(TESTS): | $(PLUGINS) $(BUILD)/bench
 
 # As a stranger would compile them: against lib/touchstone.h alone.
 $(BUILD)/plugins/%.so: verify/test/plugins/%.c lib/touchstone.h

@@ -161,6 +161,14 @@ bool touchstone_find(const char *arithmetic, const char *method, enum touchstone
 	return unit && unit->find(method, shape, numbers, count, chained, times, error);
 }
 
+bool touchstone_find_terms(const char *arithmetic, const char *method, enum touchstone_shape shape,
+						   const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count,
+						   double (*times)[TOUCHSTONE_MOST_TERMS], char error[160])
+{
+	const struct unit *unit = choose(arithmetic, error);
+	return unit && unit->find_terms(method, shape, numbers, count, times, error);
+}
+
 bool touchstone_find_steps(const char *arithmetic, const char *method, enum touchstone_shape shape,
 						   const double numbers[TOUCHSTONE_MOST_NUMBERS], struct touchstone_steps *steps,
 						   char error[160])

@@ -81,8 +81,9 @@ enum touchstone_form {
 };
 
 enum touchstone_search {
-	TOUCHSTONE_CELLS, /* only particles in neighbouring cells are looked at */
-	TOUCHSTONE_ALL,   /* every pair is looked at: slow, to check the other against */
+	TOUCHSTONE_CELLS,    /* only particles in neighbouring cells are looked at, and most rejected in binary32 */
+	TOUCHSTONE_ALL,      /* every pair is looked at: slow, to check the others against */
+	TOUCHSTONE_UNSIEVED, /* cells, with every rejection left to the working arithmetic: to tell what that costs */
 };
 
 /* All that an engine is made from. The arrays belong to the caller and are only read while the engine is made. */
@@ -300,6 +301,12 @@ enum { TOUCHSTONE_SHAPES = 4, TOUCHSTONE_MOST_NUMBERS = 7 };
 bool touchstone_find(const char *arithmetic, const char *method, enum touchstone_shape shape,
 					 const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count, bool chained, double *times,
 					 char error[160]);
+
+/* The same answers, one question after the other and unrounded: times[k] receives doubles whose exact sum is the wait,
+ * the nearest double to it first, filled with zeros. */
+bool touchstone_find_terms(const char *arithmetic, const char *method, enum touchstone_shape shape,
+						   const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count,
+						   double (*times)[TOUCHSTONE_MOST_TERMS], char error[160]);
 
 /* What a finder of balls or plane forms on its way to an answer, rounded to double: f(t) = a t^2 + 2 b t + c for balls,
  * a t^2 / 2 + b t + c for a plane; NaN for what it does not form. */

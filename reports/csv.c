@@ -1,5 +1,6 @@
 #include "csv.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 static void write_text(FILE *stream, const char *text)
@@ -39,11 +40,21 @@ void csv_table(FILE *stream, const json_t *table)
 	json_array_foreach(json_object_get(table, "rows"), i, row) write_row(stream, row);
 }
 
+/* Whether points of the figure have names. */
+static bool has_names(const json_t *figure)
+{
+	const json_t *series;
+	size_t i;
+	json_array_foreach(json_object_get(figure, "series"), i, series) if (json_object_get(series, "marks")) return true;
+	return false;
+}
+
 void csv_figure(FILE *stream, const json_t *figure)
 {
 	const json_t *series, *row;
 	size_t i, j;
-	fputs("panel_row,panel_column,series,", stream);
+	bool named = has_names(figure);
+	fputs(named ? "panel_row,panel_column,series,name," : "panel_row,panel_column,series,", stream);
 	write_row(stream, json_object_get(figure, "columns"));
 	json_array_foreach(json_object_get(figure, "series"), i, series)
 	{
@@ -58,6 +69,12 @@ void csv_figure(FILE *stream, const json_t *figure)
 			}
 			write_text(stream, json_string_value(json_object_get(series, "label")));
 			fputc(',', stream);
+			if (named) {
+				const json_t *mark = json_array_get(json_object_get(series, "marks"), j);
+				const char *name = json_string_value(json_object_get(mark, "name"));
+				write_text(stream, name ? name : "");
+				fputc(',', stream);
+			}
 			write_row(stream, row);
 		}
 	}

@@ -8,7 +8,8 @@
 /* One line of headings, then one line a row. A value that is not there is an empty field. */
 void csv_table(FILE *stream, const json_t *table);
 
-/* panel_row, panel_column, series, then the figure's own columns; one line a point. */
+/* panel_row, panel_column, series, where points have names (series_mark) the name, then the figure's own columns; one
+ * line a point. */
 void csv_figure(FILE *stream, const json_t *figure);
 
 #endif

@@ -1,6 +1,7 @@
 #include "figure.h"
 
 #include "embed.h"
+#include "marks.h"
 #include "schema.h"
 
 #include <errno.h>
@@ -18,16 +19,18 @@ EMBED(plot_trajectory, "plots/trajectory.gp");
 EMBED(plot_scaling, "plots/scaling.gp");
 EMBED(plot_curves, "plots/curves.gp");
 EMBED(plot_bars, "plots/bars.gp");
+EMBED(plot_frontier, "plots/frontier.gp");
 
 static const struct kind {
 	const char *name, *script;
-	const char *columns[5]; /* handed to the script in this order */
+	const char *columns[6]; /* handed to the script in this order; NULL after the last */
 } kinds[] = {
 	{"impact-histogram", plot_impact_histogram, {"left", "right", "height"}},
 	{"trajectory", plot_trajectory, {"time", "height", "remaining"}},
 	{"scaling", plot_scaling, {"bits", "error"}},
 	{"curves", plot_curves, {"x", "y", "low", "high"}},
 	{"bars", plot_bars, {"category", "value", "low", "high"}},
+	{"frontier", plot_frontier, {"x", "y", "low", "high", "best"}},
 };
 
 static const struct kind *kind_of(const char *name)
@@ -135,7 +138,17 @@ static void write_series(FILE *stream, const json_t *figure)
 	json_decref(labels), json_decref(rows), json_decref(columns);
 }
 
-/* The points, one block a series, the kind's columns in the kind's order. */
+/* What is printed beside a point, as gnuplot reads a text among data. */
+static void write_words(FILE *stream, const json_t *mark)
+{
+	const char *words = json_is_true(json_object_get(mark, "shown")) ? text_at(mark, "name") : "";
+	fputc('"', stream);
+	for (; *words; words++)
+		fputc(*words == '"' || *words == '\\' || (unsigned char)*words < ' ' ? ' ' : *words, stream);
+	fputc('"', stream);
+}
+
+/* The points, one block a series, the kind's columns in the kind's order, and what is printed beside them. */
 static void write_data(FILE *stream, const json_t *figure, const struct kind *kind)
 {
 	const json_t *names = json_object_get(figure, "columns"), *series, *row;
@@ -144,13 +157,14 @@ static void write_data(FILE *stream, const json_t *figure, const struct kind *ki
 	{
 		const json_t *rows = json_object_get(series, "rows");
 		/* An empty block would not count as one. */
-		if (json_array_size(rows) == 0) fputs("NaN NaN NaN NaN\n", stream);
+		if (json_array_size(rows) == 0) fputs("NaN NaN NaN NaN NaN \"\"\n", stream);
 		json_array_foreach(rows, j, row)
 		{
 			for (size_t k = 0; k < sizeof kind->columns / sizeof *kind->columns && kind->columns[k]; k++) {
 				write_number(stream, schema_double(json_array_get(row, position(names, kind->columns[k]))));
 				fputc(' ', stream);
 			}
+			write_words(stream, json_array_get(json_object_get(series, "marks"), j));
 			fputc('\n', stream);
 		}
 		fputs("\n\n", stream);
@@ -171,8 +185,8 @@ static void write_script(FILE *stream, const json_t *figure, const struct kind *
 /* ------------------------------------------------------------------ gnuplot */
 
 /* A folder of its own for one drawing: gnuplot runs inside and meets no path but these. */
-static const char *const scraps[] = {"data", "script", "messages", "figure.svg", "figure.pdf"};
-enum { DATA, SCRIPT, MESSAGES, SVG, PDF, SCRAPS };
+static const char *const scraps[] = {"data", "script", "messages", "figure.svg", "figure.pdf", "marks"};
+enum { DATA, SCRIPT, MESSAGES, SVG, PDF, MARKS, SCRAPS };
 
 static bool scraps_write(const char *const paths[SCRAPS], const json_t *figure, const struct kind *kind)
 {
@@ -236,7 +250,8 @@ static size_t points(const json_t *figure)
 	return count;
 }
 
-bool figure_draw(const json_t *figure, const char *folder, const char *stem, char error[REPORT_ERROR])
+bool figure_draw(const json_t *figure, const json_t *pages, const char *folder, const char *stem,
+				 char error[REPORT_ERROR])
 {
 	const struct kind *kind = kind_of(text_at(figure, "kind"));
 	if (!kind) {
@@ -255,8 +270,9 @@ bool figure_draw(const json_t *figure, const char *folder, const char *stem, cha
 		snprintf(error, REPORT_ERROR, "%s: a figure's data cannot be written: %s", folder, strerror(errno));
 		drawn = false;
 	}
-	drawn = drawn && run_gnuplot(place, paths[MESSAGES], error) && move(paths[SVG], folder, stem, "svg", error) &&
-			move(paths[PDF], folder, stem, "pdf", error);
+	drawn = drawn && run_gnuplot(place, paths[MESSAGES], error);
+	if (drawn && marks_any(figure)) drawn = marks_add(figure, pages, paths[MARKS], paths[SVG], error);
+	drawn = drawn && move(paths[SVG], folder, stem, "svg", error) && move(paths[PDF], folder, stem, "pdf", error);
 	for (int i = 0; i < SCRAPS; i++) {
 		if (paths[i]) unlink(paths[i]);
 		free(paths[i]);

@@ -9,8 +9,9 @@
 /* The first column a figure of this kind needs and has not; NULL when it has all, or when the kind is not known. */
 const char *figure_missing_column(const char *kind, const json_t *columns);
 
-/* Draws FOLDER/STEM.svg and FOLDER/STEM.pdf. False with a message when gnuplot is missing or fails; then neither
- * file is touched. */
-bool figure_draw(const json_t *figure, const char *folder, const char *stem, char error[REPORT_ERROR]);
+/* Draws FOLDER/STEM.svg and FOLDER/STEM.pdf. Of links only those are followed that lead to one of `pages`, a list of
+ * names. False with a message when gnuplot is missing or fails; then neither file is touched. */
+bool figure_draw(const json_t *figure, const json_t *pages, const char *folder, const char *stem,
+				 char error[REPORT_ERROR]);
 
 #endif

@@ -108,8 +108,8 @@ static bool write_csv(const char *folder, const char *name, void (*write)(FILE *
 }
 
 /* Draws the figures of one result and notes in their views what became of it; the last trouble is in `trouble`. */
-static bool write_figures(const json_t *document, json_t *view, const char *folder, char trouble[REPORT_ERROR],
-						  char error[REPORT_ERROR])
+static bool write_figures(const json_t *document, const json_t *pages, json_t *view, const char *folder,
+						  char trouble[REPORT_ERROR], char error[REPORT_ERROR])
 {
 	const json_t *figure;
 	size_t i;
@@ -117,7 +117,7 @@ static bool write_figures(const json_t *document, json_t *view, const char *fold
 	{
 		json_t *shown = json_array_get(json_object_get(view, "figures"), i);
 		char problem[REPORT_ERROR] = "";
-		bool drawn = figure_draw(figure, folder, text_at(shown, "stem"), problem);
+		bool drawn = figure_draw(figure, pages, folder, text_at(shown, "stem"), problem);
 		json_object_set_new(shown, "drawn", json_boolean(drawn));
 		if (!drawn) {
 			json_object_set_new(shown, "problem", json_string(problem));
@@ -140,6 +140,15 @@ static bool write_tables(const json_t *document, const json_t *view, const char 
 	return true;
 }
 
+/* The names of all pages of results. */
+static json_t *pages_of(const struct shelf *shelf)
+{
+	json_t *pages = json_array();
+	for (size_t i = 0; i < shelf->count; i++)
+		json_array_append_new(pages, json_sprintf("%s.html", text_at(result_document(shelf->results[i]), "name")));
+	return pages;
+}
+
 /* The way from page to page. */
 static void link_views(const json_t *views)
 {
@@ -159,13 +168,13 @@ bool report_write(const char *results_folder, const char *report_folder, char er
 	struct shelf shelf;
 	char trouble[REPORT_ERROR] = "";
 	if (!shelf_read(&shelf, results_folder, error)) return false;
-	json_t *views = json_array();
+	json_t *views = json_array(), *pages = pages_of(&shelf);
 	bool good = aside_folder(report_folder, error) && write_page(report_folder, "style.css", "style", NULL, error);
 	for (size_t i = 0; good && i < shelf.count; i++) {
 		const json_t *document = result_document(shelf.results[i]);
 		json_t *view = view_result(document);
 		json_array_append_new(views, view);
-		good = write_figures(document, view, report_folder, trouble, error) &&
+		good = write_figures(document, pages, view, report_folder, trouble, error) &&
 			   write_tables(document, view, report_folder, error) &&
 			   result_write(shelf.results[i], report_folder, error);
 	}
@@ -179,6 +188,7 @@ bool report_write(const char *results_folder, const char *report_folder, char er
 	if (good) strcpy(error, trouble);
 	json_decref(index);
 	json_decref(views);
+	json_decref(pages);
 	shelf_free(&shelf);
 	return good;
 }

@@ -258,6 +258,17 @@ void series_row(struct figure_series series, const double *values)
 	for (size_t i = 0; i < series.width; i++) append(series.result, row, schema_number(values[i]));
 }
 
+void series_mark(struct figure_series series, const struct series_mark *mark)
+{
+	json_t *object = json_object();
+	set(series.result, object, "name", text(mark->name));
+	set(series.result, object, "title", text(mark->title));
+	set_text(series.result, object, "link", mark->link);
+	set(series.result, object, "shown", json_boolean(mark->shown));
+	if (!json_object_get(series.json, "marks")) set(series.result, series.json, "marks", json_array());
+	append(series.result, json_object_get(series.json, "marks"), object);
+}
+
 void series_panel(struct figure_series series, const char *row, const char *column, const char *note)
 {
 	json_t *panel = json_object();

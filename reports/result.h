@@ -103,6 +103,9 @@ __attribute__((format(printf, 3, 4))) void table_shaded(struct result_table tabl
  *	scaling           bits error                error over significand bits, with fits (series_fit) in the legend
  *	curves            x y low high              low and high are error bars: NaN for none
  *	bars              category value low high   grouped bars; category counts from 0 into the frame's categories
+ *	frontier          x y low high best         what each costs and is worth: points where best is 1 stand out, the
+ *	                                            others are faint; SERIES_LINE is the frontier, from left to right.
+ *	                                            Points are marked (series_mark). One panel per cell.
  */
 struct figure_axis {
 	const char *label;    /* with the unit: "time / s" */
@@ -144,6 +147,15 @@ struct figure_series figure_series(struct result_figure figure, const char *labe
 
 /* Appends one row: as many numbers as the figure has columns. */
 void series_row(struct figure_series series, const double *values);
+
+/* Names the row appended last. Of a series either all rows are marked or none. */
+struct series_mark {
+	const char *name;  /* stands in the CSV and, where `shown`, beside the point */
+	const char *title; /* appears when the pointer rests on the point */
+	const char *link;  /* where a click leads: an address within the report; NULL for nowhere */
+	bool shown;
+};
+void series_mark(struct figure_series series, const struct series_mark *mark);
 
 /* Puts the series into a small multiple: the panel in the row and the column of these names, which appear in the
  * order in which they are first named. `note` (or NULL) is printed in the panel: "49.8 % below contact". */

@@ -124,6 +124,22 @@ static bool check_table(const struct place *place, json_t *table)
 	return check_texts(place, "columns", columns) && check_rows(place, rows, columns, is_cell);
 }
 
+static bool check_marks(const struct place *place, const json_t *marks, const json_t *rows)
+{
+	if (!marks) return true;
+	if (!json_is_array(marks) || json_array_size(marks) != json_array_size(rows))
+		return wrong(place, "series: marks is not a list as long as its rows");
+	for (size_t i = 0; i < json_array_size(marks); i++) {
+		json_error_t fault;
+		const char *text;
+		int shown;
+		if (json_unpack_ex(json_array_get(marks, i), &fault, 0, "{s: s, s: s, s?: s, s: b}", "name", &text, "title",
+						   &text, "link", &text, "shown", &shown) != 0)
+			return wrong(place, "series: marks[%zu]: %s", i, fault.text);
+	}
+	return true;
+}
+
 static bool check_series(const struct place *place, json_t *series, const json_t *columns)
 {
 	static const char *const styles[] = {"line", "points", "bars", "ends", NULL};
@@ -136,7 +152,7 @@ static bool check_series(const struct place *place, json_t *series, const json_t
 					   "fit", "slope", &slope, "intercept", &intercept) != 0)
 		return wrong(place, "series: %s", fault.text);
 	if (!one_of(styles, style)) return wrong(place, "series style is '%s', not line, points, bars or ends", style);
-	return check_rows(place, rows, columns, is_number);
+	return check_rows(place, rows, columns, is_number) && check_marks(place, json_object_get(series, "marks"), rows);
 }
 
 static bool check_figure(const struct place *place, json_t *figure)

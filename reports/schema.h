@@ -15,7 +15,8 @@
  *	figures      [{name, kind, title, caption, alternative, x: {label, log, range: [low, high]}, y: likewise,
  *	             columns: [name, ...], categories: [name, ...] (may be missing),
  *	             series: [{label, style: "line" | "points" | "bars" | "ends", rows: [[number, ...], ...],
- *	             panel: {row, column, note}, fit: {slope, intercept}}]}]; panel and fit may be missing
+ *	             panel: {row, column, note}, fit: {slope, intercept}, marks: [{name, title, link, shown}, ...]}]}];
+ *	             panel, fit and marks may be missing, and a mark's link; there are as many marks as rows
  *	notes        [paragraph, ...]
  *
  * Numbers are decimal with 17 digits, which gives every double back; null stands for NaN, and the texts "inf" and

@@ -1,6 +1,7 @@
 #include "view.h"
 
 #include "display.h"
+#include "marks.h"
 #include "schema.h"
 
 #include <math.h>
@@ -177,6 +178,7 @@ static json_t *view_figure(const json_t *figure, const char *name)
 	const char *const endings[] = {"svg", "pdf", "csv"};
 	for (size_t i = 0; i < 3; i++)
 		json_object_set_new(view, endings[i], json_sprintf("%s.%s", text_at(view, "stem"), endings[i]));
+	json_object_set_new(view, "answers", json_boolean(marks_any(figure)));
 	return view;
 }
 

@@ -191,6 +191,11 @@ static void engine_explain(const struct touchstone_engine *engine, void (*line)(
 				 cells->capacity);
 		line(context, text);
 	}
+	const struct sieve_machine *machine = engine->shadows.machine;
+	snprintf(text, sizeof text, "sieve: %s%s",
+			 machine ? "most pairs are rejected in binary32 first, by way of " : "none",
+			 machine ? machine->name : "; every pair is worked out in full");
+	if (cells->entry) line(context, text);
 	snprintf(text, sizeof text, "agenda: days of %g, %zu of them in the ring", engine->agenda.day, engine->agenda.days);
 	line(context, text);
 	line(context, engine->wall_count ? "walls: tested for every particle" : "walls: none, so none are tested");
@@ -219,6 +224,7 @@ const struct unit THIS_UNIT = {
 	.explain = engine_explain,
 	.drop = unit_drop,
 	.find = unit_find,
+	.find_terms = unit_find_terms,
 	.find_steps = unit_find_steps,
 	.claim = unit_claim,
 	.exact_count = exact_count,

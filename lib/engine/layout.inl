@@ -70,7 +70,7 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 										  : pow(volume * occupancy / engine->count, 1.0 / engine->dimensions);
 	side = fmax(side, reach);
 	for (int axis = 0; axis < engine->dimensions; axis++) {
-		if (engine->search == TOUCHSTONE_CELLS)
+		if (engine->search != TOUCHSTONE_ALL)
 			count[axis] = (int)fmin(fmax(floor(engine->box[axis] / side), 1), most_per_axis);
 		engine->cell_side[axis] = engine->box[axis] / count[axis];
 		engine->cells.count[axis] = count[axis];

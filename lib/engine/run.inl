@@ -36,7 +36,7 @@ static void cross(struct touchstone_engine *engine, uint32_t i)
 static void look_over(struct touchstone_engine *engine)
 {
 	struct agenda *agenda = &engine->agenda;
-	if (engine->page_length == INFINITY && engine->search == TOUCHSTONE_CELLS) {
+	if (engine->page_length == INFINITY && engine->search != TOUCHSTONE_ALL) {
 		double slack = slack_needed(engine, moment_double(engine->now), typical_speed(engine));
 		if (slack > engine->slack) {
 			engine->slack = 2 * slack;

@@ -20,6 +20,22 @@ static bool unit_find(const char *name, enum touchstone_shape shape, const doubl
 	return true;
 }
 
+static bool unit_find_terms(const char *name, enum touchstone_shape shape,
+							const double (*numbers)[TOUCHSTONE_MOST_NUMBERS], size_t count,
+							double (*times)[TOUCHSTONE_MOST_TERMS], char error[160])
+{
+	const struct method *method = find_finder(name, shape, error);
+	if (!method) return false;
+	for (size_t k = 0; k < count; k++) {
+		struct quadratic f;
+		num time = answer(method, shape, numbers[k], 0, &f);
+		int terms = expand(time, times[k], TOUCHSTONE_MOST_TERMS);
+		for (int term = terms; term < TOUCHSTONE_MOST_TERMS; term++) times[k][term] = 0;
+		times[k][0] = to_double(time); /* infinity and NaN too */
+	}
+	return true;
+}
+
 static bool unit_find_steps(const char *name, enum touchstone_shape shape,
 							const double numbers[TOUCHSTONE_MOST_NUMBERS], struct touchstone_steps *steps,
 							char error[160])

@@ -28,6 +28,8 @@ struct unit {
 				 touchstone_bounce *, void *, char error[160]);
 	bool (*find)(const char *method, enum touchstone_shape, const double (*numbers)[TOUCHSTONE_MOST_NUMBERS],
 				 size_t count, bool chained, double *times, char error[160]);
+	bool (*find_terms)(const char *method, enum touchstone_shape, const double (*numbers)[TOUCHSTONE_MOST_NUMBERS],
+					   size_t count, double (*times)[TOUCHSTONE_MOST_TERMS], char error[160]);
 	bool (*find_steps)(const char *method, enum touchstone_shape, const double numbers[TOUCHSTONE_MOST_NUMBERS],
 					   struct touchstone_steps *, char error[160]);
 	bool (*claim)(const char *method, enum touchstone_shape, struct touchstone_claim *, char error[160]);

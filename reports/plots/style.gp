@@ -5,9 +5,10 @@ ink = '#24292f'; quiet = '#5f6871'; soft = '#8a919a'; faint = '#dfe3e8'
 blue = '#2f6db3'; orange = '#c8641c'; green = '#3d8b4f'; purple = '#7f56a8'; red = '#c23b3b'; teal = '#2a8c94'
 colour(i) = word('#2f6db3 #c8641c #3d8b4f #7f56a8 #2a8c94 #c23b3b', (i - 1) % 6 + 1)
 
-# Opens the file for a plot of so many pixels, 96 to the inch.
+# Opens the file for a plot of so many pixels, 96 to the inch; a scalable one fills the room it is given.
+sizing = 'fixed'
 paper(width, height) = pdf ? sprintf("set terminal pdfcairo enhanced size %gin,%gin font 'sans,7.4' fontscale 1 lw 1.3; set output 'figure.pdf'", width / 96.0, height / 96.0) \
-	: sprintf("set terminal svg enhanced fixed size %d,%d font 'system-ui, Helvetica, Arial, sans-serif,13'; set output 'figure.svg'", width, height)
+	: sprintf("set terminal svg enhanced %s size %d,%d font 'system-ui, Helvetica, Arial, sans-serif,13'; set output 'figure.svg'", sizing, width, height)
 
 # The series of a list such as '1 3'. A plot over an empty list is never drawn, but its words are read once.
 nth(list, k) = words(list) >= k ? int(word(list, k)) : 1

@@ -19,6 +19,7 @@ int command_list(int argc, char **argv);
 int command_run(int argc, char **argv);
 int command_reproduce(int argc, char **argv);
 int command_grade(int argc, char **argv);
+int command_chart(int argc, char **argv);
 int command_replay(int argc, char **argv);
 int command_report(int argc, char **argv);
 
@@ -38,6 +39,9 @@ _Noreturn void refuse_option(const char *option, const char *argument, const cha
 
 /* A whole number from least to most, such as "1000" or "1e6", or refuse_option. */
 uint64_t option_count(const char *option, const char *argument, uint64_t least, uint64_t most);
+
+/* The words of a command line, for a result to tell; to be freed. NULL when out of memory. */
+char *command_line(int argc, char **argv);
 
 /* Significand bits of an arithmetic that touchstone_create accepts. */
 int arithmetic_bits(const char *name);

@@ -239,7 +239,7 @@ static bool write_csv(const char *path, const struct grading *grading, char erro
 static bool store(const struct wish *wish, const struct grading_plan *plan, const struct grading *grading,
 				  const char *command, char error[REPORT_ERROR])
 {
-	struct result *result = grading_result(plan, grading);
+	struct result *result = grading_result(plan, grading, "grade", "How the finders do");
 	snprintf(error, REPORT_ERROR, "out of memory");
 	if (!result) return false;
 	result_made_by(result, command, grading->seconds, *TOUCHSTONE_REVISION ? TOUCHSTONE_REVISION : NULL);
@@ -329,17 +329,6 @@ static int run(struct wish *wish, const char *command)
 	dismiss(&party);
 	query_file_free(&file);
 	return status;
-}
-
-/* The words of the command line, for the result to tell. */
-static char *command_line(int argc, char **argv)
-{
-	char *text = NULL;
-	size_t size;
-	FILE *stream = open_memstream(&text, &size);
-	for (int a = 0; stream && a < argc; a++) fprintf(stream, "%s%s", a == 0 ? "" : " ", argv[a]);
-	if (stream) fclose(stream);
-	return text;
 }
 
 int command_grade(int argc, char **argv)

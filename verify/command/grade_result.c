@@ -260,9 +260,10 @@ static void add_sources(struct result *result, const struct grading_plan *plan)
 	}
 }
 
-struct result *grading_result(const struct grading_plan *plan, const struct grading *grading)
+struct result *grading_result(const struct grading_plan *plan, const struct grading *grading, const char *name,
+							  const char *title)
 {
-	struct result *result = result_new("grade", "How the finders do");
+	struct result *result = result_new(name, title);
 	if (!result) return NULL;
 	add_summary(result, plan, grading);
 	for (int detailed = 0; detailed < 2; detailed++) {

@@ -285,7 +285,7 @@ static bool grade_set(struct work *work, const struct question_source *source, e
 		good = fill_block(work, first);
 		for (size_t s = 0; good && s < work->seats; s++) good = grade_block(&work->seat[s]);
 		if (good && work->plan->answers) write_answers(work);
-		if (good && first == 0 && !stopped(work)) take_times(work);
+		if (good && first == 0 && !stopped(work) && !work->plan->untimed) take_times(work);
 	}
 	for (size_t s = 0; s < work->seats; s++) finish_row(work->seat[s].row);
 	return good;

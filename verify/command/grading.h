@@ -36,6 +36,7 @@ struct grading_plan {
 	uint64_t cases;  /* of each family and shape */
 	uint64_t seed;
 	int threads;
+	bool untimed;  /* nobody asks how long they take */
 	FILE *answers; /* to write each answer to, or NULL */
 	const volatile int *stop;
 };
@@ -91,7 +92,8 @@ bool grading_finding(const struct grading *grading);
 void grading_print(FILE *stream, const struct grading *grading);
 void grading_print_findings(FILE *stream, const struct grading *grading); /* only those; nothing if there are none */
 void grading_csv(FILE *stream, const struct grading *grading);
-struct result *grading_result(const struct grading_plan *plan, const struct grading *grading); /* NULL: no memory */
+struct result *grading_result(const struct grading_plan *plan, const struct grading *grading, const char *name,
+							  const char *title); /* NULL: no memory */
 
 /* Which claim a row's finder does not keep, how often, and on which question first; to be freed. */
 char *grade_row_broken(const struct grade_row *row);

@@ -87,6 +87,7 @@ static bool list_figures(const char *folder)
 {
 	(void)folder;
 	for (const struct figure_entry *figure = figures; figure->name; figure++) print(figure->name, figure->about);
+	print("chart", "speed against accuracy of finders and engines: made by `touchstone chart`");
 	return true;
 }
 

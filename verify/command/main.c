@@ -18,6 +18,7 @@ static const struct command {
 	{"run", "one scene: what became of it, how fast, and its digest", command_run},
 	{"reproduce", "the papers' figures, stored as results", command_reproduce},
 	{"grade", "finders of event times, held against the exact answers", command_grade},
+	{"chart", "speed against accuracy, measured here and now", command_chart},
 	{"replay", "one input through every method and arithmetic, beside the exact answer", command_replay},
 	{"report", "pages from stored results", command_report},
 };

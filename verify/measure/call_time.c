@@ -5,10 +5,11 @@
 
 enum { REPETITIONS = 21, CALLEES = 64 };
 
+/* Of this thread: what others do on the machine meanwhile does not count. */
 static double clock_nanoseconds(void)
 {
 	struct timespec now;
-	clock_gettime(CLOCK_MONOTONIC, &now);
+	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
 	return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
 }
 

@@ -1,5 +1,5 @@
-/* How long a call takes, in nanoseconds, measured here and now: several callees side by side, so that whatever slows
- * the machine for a while slows them all. */
+/* How long a call takes, in nanoseconds of the calling thread's time, measured here and now: several callees side by
+ * side, so that whatever slows the machine for a while slows them all. */
 #ifndef VERIFY_CALL_TIME_H
 #define VERIFY_CALL_TIME_H
 

@@ -48,7 +48,7 @@ double finder_quantile(struct finder_values *values, double share)
 
 /* ---- one answer */
 
-static enum finder_class classify(struct oracle *oracle, const struct oracle_time *time, double got, double *ulp)
+enum finder_class finder_classify(struct oracle *oracle, const struct oracle_time *time, double got, double *ulp)
 {
 	if (isnan(got)) return FINDER_NAN;
 	if (got < 0) return FINDER_NEGATIVE;
@@ -130,7 +130,7 @@ bool finder_grade_add(struct finder_grade *grade, struct oracle *oracle, uint64_
 		asked[k % 2] = oracle_accepts(&query);
 		if (asked[k % 2]) {
 			*now = oracle_solve(oracle, &query);
-			class = classify(oracle, now, answers[k], &ulp);
+			class = finder_classify(oracle, now, answers[k], &ulp);
 		}
 		grade->count[class]++;
 		double exact = grade->claim && asked[k % 2] ? oracle_round(oracle, now, MPFR_RNDN) : NAN;

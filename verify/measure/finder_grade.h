@@ -58,6 +58,9 @@ uint64_t finder_grade_cases(const struct finder_grade *grade);
  * median, 1 for the maximum. NaN when there are none. Moves the values about. */
 double finder_quantile(struct finder_values *values, double share);
 
+/* What has become of a question, and, if its event was found, how far off the answer is in ulp. */
+enum finder_class finder_classify(struct oracle *oracle, const struct oracle_time *time, double got, double *ulp);
+
 /* A question as the oracle takes it. */
 struct oracle_query finder_question(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS]);
 

@@ -11,7 +11,8 @@ static const cyaml_strval_t velocities[] = {
 	{"maxwell", SCENE_MAXWELL}, {"uniform", SCENE_UNIFORM}, {"rest", SCENE_REST}, {"file", SCENE_AS_GIVEN}};
 static const cyaml_strval_t boundaries[] = {{"periodic", SCENE_PERIODIC}, {"walls", SCENE_WALLS}, {"open", SCENE_OPEN}};
 static const cyaml_strval_t forms[] = {{"relative", TOUCHSTONE_RELATIVE}, {"absolute", TOUCHSTONE_ABSOLUTE}};
-static const cyaml_strval_t searches[] = {{"cells", TOUCHSTONE_CELLS}, {"all", TOUCHSTONE_ALL}};
+static const cyaml_strval_t searches[] = {
+	{"cells", TOUCHSTONE_CELLS}, {"all", TOUCHSTONE_ALL}, {"unsieved", TOUCHSTONE_UNSIEVED}};
 
 static const cyaml_schema_value_t number = {CYAML_VALUE_STRING(CYAML_FLAG_POINTER, char, 0, CYAML_UNLIMITED)};
 static const cyaml_schema_value_t boundary = {

@@ -67,6 +67,47 @@ static void sources_are_true(void **state)
 	assert_true(drawn >= 40);
 }
 
+/* What is said to break a method in binary64 does, in the way that is said. */
+static void methods_are_broken(void **state)
+{
+	(void)state;
+	struct oracle *oracle = oracle_create();
+	assert_non_null(oracle);
+	size_t broken = 0, wrong = 0;
+	for (size_t i = 0; i < file.count; i++) {
+		const struct query *query = &file.query[i];
+		char words[200], method[64], error[160];
+		int behind = 0;
+		if (!part_of(query->comment, "; breaks: ", words)) continue;
+		check_line(sscanf(words, "%63[^,], %n", method, &behind) == 1 && behind, query, "no method and no fault");
+		const char *fault = words + behind;
+		numbers asked;
+		double got, stated;
+		memcpy(asked, query->number, sizeof asked);
+		if (!touchstone_find("binary64", method, query->shape, (const numbers *)&asked, 1, true, &got, error))
+			fail_msg("hard-inputs.txt:%ld: %s", query->line, error);
+		struct oracle_query exact = query_of(query->shape, query->number);
+		struct oracle_time time = oracle_solve(oracle, &exact);
+		bool never = time.event == ORACLE_NEVER, holds;
+		if (strcmp(fault, "missed") == 0)
+			holds = !never && got == INFINITY;
+		else if (strcmp(fault, "phantom") == 0)
+			holds = never && got < INFINITY;
+		else if (strcmp(fault, "negative") == 0)
+			holds = got < 0;
+		else if (strcmp(fault, "not a number") == 0)
+			holds = isnan(got);
+		else
+			holds = sscanf(fault, "%lf ulp", &stated) == 1 && oracle_error(oracle, &time, got) > 0.9 * stated;
+		if (!holds) print_message("hard-inputs.txt:%ld: %s is not '%s': %a\n", query->line, method, fault, got);
+		wrong += !holds;
+		broken++;
+	}
+	oracle_destroy(oracle);
+	assert_int_equal(wrong, 0);
+	assert_true(broken >= 40);
+}
+
 static size_t lines_with(const char *words, int shape)
 {
 	size_t lines = 0;
@@ -84,8 +125,8 @@ static void nothing_is_left_out(void **state)
 		snprintf(words, sizeof words, "; source: quadratic %d", number);
 		if (lines_with(words, -1) == 0) fail_msg("quadratic %d is not asked", number);
 	}
-	static const char *const methods[] = {"stable", "naive",   "guarded", "numerical-recipes",
-										  "kahan",  "epsilon", "sterbenz"};
+	static const char *const methods[] = {"stable",           "naive",   "guarded", "numerical-recipes", "kahan",
+										  "textbook-epsilon", "sterbenz"};
 	for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
 		char words[60];
 		snprintf(words, sizeof words, "; breaks: %s, ", methods[m]);
@@ -116,6 +157,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(answers_are_exact),
 		cmocka_unit_test(sources_are_true),
+		cmocka_unit_test(methods_are_broken),
 		cmocka_unit_test(nothing_is_left_out),
 	};
 	int failed = cmocka_run_group_tests(tests, open_file, close_file);

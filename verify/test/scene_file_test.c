@@ -116,9 +116,11 @@ static void cases_are_what_they_are(void **state)
 	assert_true(scene.form == TOUCHSTONE_ABSOLUTE && scene.search == TOUCHSTONE_ALL);
 	scene_free(&scene);
 	scene_file_close(file);
-	file = scene_file_open("cases/mixture.yaml", 0, NULL, error);
+	const char *unsieved[] = {"search=unsieved"};
+	file = scene_file_open("cases/mixture.yaml", 1, unsieved, error);
 	assert_true(file && scene_file_build(file, &scene, error));
 	assert_true(scene.species_count == 2 && scene.species[1].diameter == 0.5);
+	assert_true(scene.search == TOUCHSTONE_UNSIEVED);
 	scene_free(&scene);
 	scene_file_close(file);
 }
