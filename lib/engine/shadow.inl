@@ -86,6 +86,46 @@ static void cast_shadows(struct touchstone_engine *engine)
 	keep_time(engine);
 }
 
+/* What comes after the plan is of no interest. */
+static void keep_plan(struct touchstone_engine *engine, const struct plan *plan)
+{
+	struct sieve *sieve = &engine->shadows.sieve;
+	sieve->latest = INFINITY;
+	if (!sieve->by_order || plan->meets == MEETS_NOTHING) return;
+	double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - engine->shadows.now;
+	sieve->latest = (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->drift);
+}
+
+/* Of `count` captured pairs, writes the numbers of those that may have the next event of particle i, before its plan.
+ * No more than HELD at once. */
+enum { HELD = 64 };
+static size_t sift_captured(struct touchstone_engine *engine, uint32_t i, const struct pair_state *captured,
+							uint32_t count, const struct plan *plan, uint32_t kept[HELD + 16])
+{
+	struct shadows *shadows = &engine->shadows;
+	uint32_t entry[HELD + 16], images = 0;
+	float outer[HELD + 16], inner[HELD + 16];
+	if (!shadows->shadow || engine->method->sieve != SIEVE_ORDER) {
+		for (uint32_t k = 0; k < count; k++) kept[k] = k;
+		return count;
+	}
+	for (uint32_t k = 0; k < count; k++) {
+		const struct potential *potential = potential_between(engine, i, entry_particle(captured[k].entry));
+		uint32_t state = captured[k].state;
+		num within = potential->step[state - 1].distance;
+		num beyond = state < potential->step_count ? potential->step[state].distance : potential->core;
+		entry[k] = captured[k].entry;
+		images |= entry[k] >> ENTRY_BITS;
+		outer[k] = (float)(to_double(within) * shadows->per_length);
+		inner[k] = (float)(to_double(beyond) * shadows->per_length);
+	}
+	for (uint32_t k = count; k < count + 16; k++) entry[k] = entry[0], outer[k] = inner[k] = 1;
+	shadows->sieve.images = images;
+	keep_plan(engine, plan);
+	struct held held = {entry, outer, inner};
+	return shadows->machine->hold(&shadows->sieve, shadows->shadow, i, &held, count, kept);
+}
+
 /* Of the first `candidates` entries listed, keeps those that particle i may meet before its plan. */
 static size_t sift(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates,
 				   const struct plan *plan)
@@ -94,11 +134,7 @@ static size_t sift(struct touchstone_engine *engine, uint32_t i, uint32_t *candi
 	if (!shadows->shadow) return candidates;
 	struct sieve *sieve = &shadows->sieve;
 	sieve->images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
-	sieve->latest = INFINITY;
-	if (sieve->by_order && plan->meets != MEETS_NOTHING) {
-		double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - shadows->now;
-		sieve->latest = (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->drift);
-	}
+	keep_plan(engine, plan);
 	candidates = shadows->machine->pass(sieve, shadows->shadow, i, candidate, candidates);
 	for (size_t k = 0; k < candidates; k++) __builtin_prefetch(&engine->body[entry_particle(candidate[k])]);
 	return candidates;

@@ -15,6 +15,8 @@ typedef int32_t flags __attribute__((vector_size(LANES * sizeof(int32_t))));
 
 #define INLINE static inline __attribute__((always_inline))
 
+static const float u = 0x1p-24f, tiny = 0x1p-120f;
+
 /* The steps for which machines differ. */
 struct steps {
 	void (*fetch)(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS]); /* sixteen, by field */
@@ -42,55 +44,160 @@ INLINE lanes shift_of(flags entry, int axis, float box)
 	return __builtin_convertvector((code & 1) - (code >> 1), lanes) * box;
 }
 
+/* The particle that searches. */
+struct own {
+	struct shadow shadow;
+	float speed, h_fixed, h_time;
+};
+
+INLINE struct own own_of(const struct sieve *sieve, const struct shadow *shadow)
+{
+	const float *x = shadow->position, *v = shadow->velocity;
+	float size = fabsf(x[0]) + fabsf(x[1]) + fabsf(x[2]);
+	return (struct own){.shadow = *shadow,
+						.speed = fabsf(v[0]) + fabsf(v[1]) + fabsf(v[2]),
+						.h_fixed = 8 * u * (sieve->boxes + size),
+						.h_time = 12 * u * sieve->span + sieve->drift};
+}
+
+/* Sixteen particles as it sees them at the time of the search, in the terms of sieve.h: R, S, a, b and r.r. */
+struct others {
+	lanes radius, r1, s, a, b, rr, h;
+};
+
+INLINE struct others others_of(const struct sieve *sieve, const struct own *own, const struct shadow *shadow,
+							   const uint32_t *entry, const struct steps *step)
+{
+	lanes field[FIELDS];
+	step->fetch(shadow, entry, field);
+	if (sieve->images) {
+		flags which;
+		memcpy(&which, entry, sizeof which);
+		for (int axis = 0; axis < 3; axis++) field[axis] += shift_of(which, axis, sieve->box[axis]);
+	}
+	const lanes zero = {0};
+	lanes wait = sieve->now - field[3];
+	struct others others = {field[7], zero, zero + own->speed, zero, zero, zero, zero};
+	for (int axis = 0; axis < 3; axis++) {
+		lanes theirs = field[4 + axis], v = own->shadow.velocity[axis] - theirs;
+		lanes r = own->shadow.position[axis] - (field[axis] + theirs * wait);
+		others.s += size_of(theirs);
+		others.r1 += size_of(r);
+		others.a += v * v;
+		others.b += r * v;
+		others.rr += r * r;
+	}
+	others.h = own->h_fixed + 4 * u * others.r1 + own->h_time * others.s;
+	return others;
+}
+
+/* E_c, for no distance whose square is larger. */
+INLINE lanes error_of_c(const struct sieve *sieve, const struct others *o, lanes square)
+{
+	const float n = sieve->roundoff, age = sieve->age;
+	return 4 * o->h * (o->r1 + o->h) + (32 * u + 64 * n) * (o->r1 * o->r1 + square) +
+		   (64 * n * age * age) * (o->s * o->s) + tiny;
+}
+
+INLINE lanes error_of_b(const struct sieve *sieve, const struct others *o)
+{
+	const float n = sieve->roundoff;
+	return o->s * (2 * o->h + (12 * u + 16 * n) * o->r1 + (16 * n * sieve->age) * o->s) + tiny;
+}
+
+/* When pairs meet at a distance: not before `low`; and, where that is sure, not after `high`. */
+struct meeting {
+	lanes low, high;
+	flags misses, sure;
+};
+
+INLINE struct meeting meeting_of(const struct others *o, lanes c, lanes q, lanes error_b, const struct steps *step)
+{
+	const lanes zero = {0};
+	lanes error_d = 2 * (o->s * o->s) * q + tiny, d = o->b * o->b - o->a * c, most = d + error_d, least = d - error_d;
+	struct meeting meeting;
+	meeting.misses = step->less(error_b, o->b) | step->less(most, zero);
+	meeting.low = (c - q) / (error_b - o->b + step->root(pick(step->less(zero, most), most, zero)));
+	meeting.sure = step->less(o->b + error_b, zero) & step->less(zero, least) & step->less(q, c);
+	meeting.high = (c + q) / (step->root(pick(meeting.sure, least, zero + 1)) - o->b - error_b);
+	return meeting;
+}
+
+/* The latest meeting that is still of interest, when some surely come no later than `high`. */
+INLINE float latest_of(const struct sieve *sieve, float latest, lanes high, const struct steps *step)
+{
+	float soonest = step->least(high) * 1.0001f + sieve->drift;
+	return soonest < latest ? soonest : latest;
+}
+
+static const uint32_t all_lanes = (1u << LANES) - 1;
+
 INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, uint32_t *entry, size_t count,
 				   const struct steps step)
 {
-	static const float u = 0x1p-24f, tiny = 0x1p-120f;
-	const struct shadow self = shadow[i];
-	const float n = sieve->roundoff, age = sieve->age,
-				size = fabsf(self.position[0]) + fabsf(self.position[1]) + fabsf(self.position[2]),
-				speed = fabsf(self.velocity[0]) + fabsf(self.velocity[1]) + fabsf(self.velocity[2]),
-				h_fixed = 8 * u * (sieve->boxes + size), h_time = 12 * u * sieve->span + sieve->drift;
+	const struct own own = own_of(sieve, &shadow[i]);
 	const lanes zero = {0}, never = zero + INFINITY, number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 	float latest = sieve->latest;
 	size_t kept = 0;
 	for (size_t k = 0; k < count; k += LANES) {
-		lanes field[FIELDS];
-		step.fetch(shadow, entry + k, field);
-		if (sieve->images) {
-			flags which;
-			memcpy(&which, entry + k, sizeof which);
-			for (int axis = 0; axis < 3; axis++) field[axis] += shift_of(which, axis, sieve->box[axis]);
-		}
-		lanes wait = sieve->now - field[3], contact = self.radius + field[7], square = contact * contact;
-		lanes s = zero + speed, r1 = zero, a = zero, b = zero, c = -square;
-		for (int axis = 0; axis < 3; axis++) {
-			lanes theirs = field[4 + axis], v = self.velocity[axis] - theirs;
-			lanes r = self.position[axis] - (field[axis] + theirs * wait);
-			s += size_of(theirs);
-			r1 += size_of(r);
-			a += v * v;
-			b += r * v;
-			c += r * r;
-		}
-		lanes h = h_fixed + 4 * u * r1 + h_time * s, s2 = s * s;
-		lanes q = 4 * h * (r1 + h) + (32 * u + 64 * n) * (r1 * r1 + square) + (64 * n * age * age) * s2 + tiny;
-		lanes error_b = s * (2 * h + (12 * u + 16 * n) * r1 + (16 * n * age) * s) + tiny;
-		lanes error_d = 2 * s2 * q + tiny, d = b * b - a * c, d_most = d + error_d;
-		flags out = ~step.less(number, zero + (float)(count - k)) | step.less(error_b, b) | step.less(d_most, zero);
-		if (step.bits(out) == (1u << LANES) - 1) continue;
-		lanes d_least = d - error_d;
-		lanes low = (c - q) / (error_b - b + step.root(pick(step.less(zero, d_most), d_most, zero)));
-		flags sure = step.less(b + error_b, zero) & step.less(zero, d_least) & step.less(q, c);
-		lanes high = (c + q) / (step.root(pick(sure, d_least, zero + 1)) - b - error_b);
+		struct others others = others_of(sieve, &own, shadow, entry + k, &step);
+		lanes contact = own.shadow.radius + others.radius, square = contact * contact;
+		lanes q = error_of_c(sieve, &others, square), error_b = error_of_b(sieve, &others);
+		struct meeting meeting = meeting_of(&others, others.rr - square, q, error_b, &step);
+		flags out = ~step.less(number, zero + (float)(count - k)) | meeting.misses;
+		if (step.bits(out) == all_lanes) continue;
 		if (sieve->by_order) {
-			float soonest = step.least(pick(sure & ~out, high, never)) * 1.0001f + sieve->drift;
-			latest = soonest < latest ? soonest : latest;
-			out |= step.less(zero + latest, low);
+			latest = latest_of(sieve, latest, pick(meeting.sure & ~out, meeting.high, never), &step);
+			out |= step.less(zero + latest, meeting.low);
 		}
-		kept += step.pack(~step.bits(out) & ((1u << LANES) - 1), entry + k, entry + kept);
+		kept += step.pack(~step.bits(out) & all_lanes, entry + k, entry + kept);
 	}
 	return kept;
+}
+
+/* The root of a t^2 + 2 b t + c where a >= 0 > c: nothing cancels, and it errs by a few u. It falls as any of the three
+ * grows. */
+INLINE lanes parting(lanes a, lanes b, lanes c, const struct steps *step)
+{
+	const lanes zero = {0};
+	lanes end = step->root(b * b - a * c);
+	flags parts = step->less(zero, b);
+	return pick(parts, -c, end - b) / pick(parts, b + end, a);
+}
+
+INLINE size_t hold(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, const struct held *held,
+				   size_t count, uint32_t *kept, const struct steps step)
+{
+	const struct own own = own_of(sieve, &shadow[i]);
+	const lanes zero = {0}, never = zero + INFINITY, number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+	const float fine = 0x1p-18f + 16 * sieve->roundoff;
+	float latest = sieve->latest;
+	size_t found = 0;
+	for (size_t k = 0; k < count; k += LANES) {
+		struct others others = others_of(sieve, &own, shadow, held->entry + k, &step);
+		lanes inner, outer;
+		memcpy(&inner, held->inner + k, sizeof inner);
+		memcpy(&outer, held->outer + k, sizeof outer);
+		lanes q = error_of_c(sieve, &others, outer * outer), error_b = error_of_b(sieve, &others);
+		lanes error_a = (16 * u + 8 * sieve->roundoff) * (others.s * others.s) + tiny;
+		struct meeting meeting = meeting_of(&others, others.rr - inner * inner, q, error_b, &step);
+		lanes c = others.rr - outer * outer, a = others.a - error_a;
+		flags within = step.less(c + q, zero), surely = step.less(c - q, zero);
+		lanes low = parting(others.a + error_a, others.b + error_b, pick(within, c + q, zero - 1), &step) * (1 - fine);
+		lanes high =
+			parting(pick(step.less(zero, a), a, zero), others.b - error_b, pick(surely, c - q, zero - 1), &step);
+		low = pick(within, low, -never);
+		high = pick(surely, high * (1 + fine), never);
+		low = pick(~meeting.misses & step.less(meeting.low, low), meeting.low, low);
+		high = pick(meeting.sure & step.less(meeting.high, high), meeting.high, high);
+		flags out = ~step.less(number, zero + (float)(count - k));
+		latest = latest_of(sieve, latest, pick(~out, high, never), &step);
+		out |= step.less(zero + latest, low);
+		uint32_t each[LANES];
+		for (uint32_t lane = 0; lane < LANES; lane++) each[lane] = (uint32_t)k + lane;
+		found += step.pack(~step.bits(out) & all_lanes, each, kept + found);
+	}
+	return found;
 }
 
 INLINE void fetch_any(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS])
@@ -143,6 +250,13 @@ static size_t pass_any(const struct sieve *sieve, const struct shadow *shadow, u
 				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
 }
 
+static size_t hold_any(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, const struct held *held,
+					   size_t count, uint32_t *kept)
+{
+	return hold(sieve, shadow, self, held, count, kept,
+				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
+}
+
 static void cast_any(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy, double vz,
 					 double radius)
 {
@@ -160,6 +274,13 @@ AVX2 static size_t pass_avx2(const struct sieve *sieve, const struct shadow *sha
 							 size_t count)
 {
 	return pass(sieve, shadow, self, entry, count,
+				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
+}
+
+AVX2 static size_t hold_avx2(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
+							 const struct held *held, size_t count, uint32_t *kept)
+{
+	return hold(sieve, shadow, self, held, count, kept,
 				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
 }
 
@@ -223,13 +344,21 @@ AVX512 static size_t pass_512(const struct sieve *sieve, const struct shadow *sh
 	return pass(sieve, shadow, self, entry, count,
 				(struct steps){fetch_512, root_512, less_512, bits_512, least_512, pack_any});
 }
+
+AVX512 static size_t hold_512(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
+							  const struct held *held, size_t count, uint32_t *kept)
+{
+	return hold(sieve, shadow, self, held, count, kept,
+				(struct steps){fetch_512, root_512, less_512, bits_512, least_512, pack_any});
+}
 #endif
 
 const struct sieve_machine *sieve_machine(size_t number)
 {
-	static const struct sieve_machine any = {"portable", pass_any, cast_any};
+	static const struct sieve_machine any = {"portable", pass_any, hold_any, cast_any};
 #ifdef __x86_64__
-	static const struct sieve_machine avx512 = {"AVX-512", pass_512, cast_avx2}, avx2 = {"AVX2", pass_avx2, cast_avx2};
+	static const struct sieve_machine avx512 = {"AVX-512", pass_512, hold_512, cast_avx2},
+									  avx2 = {"AVX2", pass_avx2, hold_avx2, cast_avx2};
 	bool fair = __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 	bool fast = fair && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
 				__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");

@@ -53,6 +53,19 @@ struct sieve {
 typedef size_t sieve_pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
 						  size_t count);
 
+/* Pairs that are within one distance and, it may be, beyond another: they part at the one, or meet at the other. The
+ * arrays hold 16 more at their ends: entries that name particles which exist, and any distances. */
+struct held {
+	const uint32_t *entry;
+	const float *outer, *inner; /* inner: 0 where there is nothing to meet */
+};
+
+/* The same for `count` pairs of this kind, by order always: writes the numbers of those whose event may come first to
+ * `kept`, which has room for 16 more, and returns how many there are. When a pair parts, the root of a t^2 + 2 b t + c
+ * with c < 0, falls as any of a, b and c grows, so that their errors bound it: E_c, E_b, and (16 u + 8 n) S^2 of a. */
+typedef size_t sieve_hold(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
+						  const struct held *held, size_t count, uint32_t *kept);
+
 /* Writes a shadow whole: what is written in pieces is slow to be read back whole. */
 typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
 						double vz, double radius);
@@ -62,6 +75,7 @@ typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, dou
 struct sieve_machine {
 	const char *name;
 	sieve_pass *pass;
+	sieve_hold *hold;
 	sieve_cast *cast;
 };
 const struct sieve_machine *sieve_machine(size_t number);

@@ -1,25 +1,33 @@
 /* Pairs within a step of their potential: what they may do next, and what happens at a step (2016 paper, section 3 and
  * algorithm 3). Their state is what was tracked, never what their distance says. */
 
-/* Weighs the events of particle i with all that it has captured: leaving the innermost step they are within, or
+/* Weighs the events of particle i with a partner it has captured: leaving the innermost step they are within, or
  * meeting the next one, or the core. */
+static void consider_partner(struct touchstone_engine *engine, uint32_t i, struct pair_state captured,
+							 struct plan *plan)
+{
+	uint32_t entry = captured.entry, state = captured.state;
+	const struct potential *potential = potential_between(engine, i, entry_particle(entry));
+	struct balls balls;
+	struct quadratic f;
+	const struct body *later = relative_state(engine, i, entry, balls.r, balls.v);
+	balls.contact = potential->step[state - 1].distance;
+	consider(engine, i, later, engine->method->ball_leave(&balls, &f), TOUCHSTONE_RELEASE, entry, plan);
+	bool innermost = state == potential->step_count;
+	if (innermost && !potential->hard) return;
+	balls.contact = innermost ? potential->core : potential->step[state].distance;
+	consider(engine, i, later, engine->method->ball_ball(&balls, &f),
+			 innermost ? TOUCHSTONE_CONTACT : TOUCHSTONE_CAPTURE, entry, plan);
+}
+
+/* The same with all of them, as far as the sieve lets them pass. */
 static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
 {
-	uint32_t count;
+	uint32_t count, kept[HELD + 16];
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
-	for (uint32_t k = 0; k < count; k++) {
-		uint32_t entry = captured[k].entry, state = captured[k].state;
-		const struct potential *potential = potential_between(engine, i, entry_particle(entry));
-		struct balls balls;
-		struct quadratic f;
-		const struct body *later = relative_state(engine, i, entry, balls.r, balls.v);
-		balls.contact = potential->step[state - 1].distance;
-		consider(engine, i, later, engine->method->ball_leave(&balls, &f), TOUCHSTONE_RELEASE, entry, plan);
-		bool innermost = state == potential->step_count;
-		if (innermost && !potential->hard) continue;
-		balls.contact = innermost ? potential->core : potential->step[state].distance;
-		consider(engine, i, later, engine->method->ball_ball(&balls, &f),
-				 innermost ? TOUCHSTONE_CONTACT : TOUCHSTONE_CAPTURE, entry, plan);
+	for (; count; captured += count < HELD ? count : HELD, count -= count < HELD ? count : HELD) {
+		size_t some = sift_captured(engine, i, captured, count < HELD ? count : HELD, plan, kept);
+		for (size_t k = 0; k < some; k++) consider_partner(engine, i, captured[kept[k]], plan);
 	}
 }
 
