@@ -28,7 +28,7 @@ static void engine_destroy(struct touchstone_engine *engine)
 	void *owned[] = {engine->body,           engine->place,          engine->itinerary, engine->index_of,
 					 engine->radius,         engine->mass,           engine->wall,      engine->candidate[0],
 					 engine->shadows.shadow, engine->shadows.radius, engine->potential, engine->potential_of,
-					 engine->virtual_wall,   engine->side,           engine->crossed};
+					 engine->virtual_wall,   engine->side,           engine->crossed,   engine->captured};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }

@@ -44,7 +44,9 @@ static bool fill_potentials(struct touchstone_engine *engine, const struct touch
 		engine->potential_of[said->species[1] * species + said->species[0]] = p;
 		stepped |= said->step_count > 0;
 	}
-	return !stepped || pairs_create(&engine->pairs, (uint32_t)scene->particle_count);
+	if (!stepped) return true;
+	engine->captured = calloc(scene->particle_count, sizeof *engine->captured);
+	return engine->captured && pairs_create(&engine->pairs, (uint32_t)scene->particle_count);
 }
 
 static bool set_potentials(struct touchstone_engine *engine, const struct touchstone_scene *scene)

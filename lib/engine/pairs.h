@@ -46,6 +46,14 @@ static inline const struct pair_state *pairs_of(const struct pairs *pairs, uint3
 	return pairs->slot + bucket->first;
 }
 
+/* Asks for what pairs_of() will read. */
+static inline void pairs_ahead(const struct pairs *pairs, uint32_t i)
+{
+	const struct pair_state *slot = pairs->slot + pairs->bucket[i].first;
+	__builtin_prefetch(slot);
+	__builtin_prefetch(slot + 8);
+}
+
 /* State of particle i and an entry; 0 for those not stored. */
 uint32_t pairs_get(const struct pairs *pairs, uint32_t i, uint32_t entry);
 

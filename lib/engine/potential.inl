@@ -10,6 +10,7 @@ static inline const struct potential *potential_of(const struct touchstone_engin
 
 static inline const struct potential *potential_between(const struct touchstone_engine *engine, uint32_t i, uint32_t j)
 {
+	if (engine->species_count == 1) return engine->potential;
 	return potential_of(engine, engine->place[i].species, engine->place[j].species);
 }
 

@@ -110,8 +110,7 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 }
 
 static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
-static size_t without_captured(const struct touchstone_engine *engine, uint32_t i, uint32_t *candidate,
-							   size_t candidates);
+static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates);
 static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
 
 /* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
@@ -120,6 +119,8 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 {
 	struct plan plan[2];
 	size_t candidates[2] = {0};
+	bool captures = engine->captured;
+	for (int p = 0; captures && p < particles; p++) pairs_ahead(&engine->pairs, particle[p]);
 	for (int p = 0; p < particles; p++) plan[p] = (struct plan){.meets = MEETS_NOTHING};
 	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
 	for (int p = 0; engine->side && p < particles; p++) consider_virtual_walls(engine, particle[p], &plan[p]);
@@ -127,11 +128,10 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 		uint32_t *const *list = engine->candidate;
 		for (int p = 0; p < particles; p++)
 			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
-		for (int p = 0; engine->pairs.bucket && p < particles; p++) {
-			consider_captured(engine, particle[p], &plan[p]);
-			candidates[p] = without_captured(engine, particle[p], list[p], candidates[p]);
-		}
+		for (int p = 0; captures && p < particles; p++) consider_captured(engine, particle[p], &plan[p]);
 		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
+		for (int p = 0; captures && p < particles; p++)
+			candidates[p] = without_captured(engine, particle[p], list[p], candidates[p]);
 		for (int p = 0; p < particles; p++) consider_pairs(engine, particle[p], list[p], candidates[p], &plan[p]);
 	}
 	for (int p = 0; p < particles; p++) plan_keep(engine, particle[p], &plan[p]);
@@ -150,8 +150,8 @@ static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axi
 	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, engine->itinerary[i].meets, false};
 	uint32_t *list = engine->candidate[0];
 	size_t candidates = cells_beyond(&engine->cells, engine->itinerary[i].cell, axis, side, i, list);
-	if (engine->pairs.bucket) candidates = without_captured(engine, i, list, candidates);
 	candidates = sift(engine, i, list, candidates, &plan);
+	if (engine->captured) candidates = without_captured(engine, i, list, candidates);
 	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);
 }

@@ -132,6 +132,7 @@ struct touchstone_engine {
 	struct potential *potential;
 	uint32_t *potential_of; /* per pair of species: number of its potential; NULL: all particles are hard bodies */
 	struct pairs pairs;     /* those within a step */
+	uint16_t *captured;     /* per particle, a mark for the search at hand; NULL: there are no steps */
 	num outermost;          /* distance at which two particles first meet, where there is one species, */
 	uint8_t outermost_kind; /* and what then happens: enum touchstone_kind, or MEETS_NOTHING */
 

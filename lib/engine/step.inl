@@ -25,24 +25,32 @@ static void consider_captured(struct touchstone_engine *engine, uint32_t i, stru
 {
 	uint32_t count, kept[HELD + 16];
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
-	for (; count; captured += count < HELD ? count : HELD, count -= count < HELD ? count : HELD) {
-		size_t some = sift_captured(engine, i, captured, count < HELD ? count : HELD, plan, kept);
-		for (size_t k = 0; k < some; k++) consider_partner(engine, i, captured[kept[k]], plan);
+	for (uint32_t some; count; captured += some, count -= some) {
+		some = count < HELD ? count : HELD;
+		size_t left = sift_captured(engine, i, captured, some, plan, kept);
+		for (size_t k = 0; k < left; k++) consider_partner(engine, i, captured[kept[k]], plan);
 	}
 }
 
-/* Takes what particle i has captured out of a list of entries it may meet; returns how many are left. */
-static size_t without_captured(const struct touchstone_engine *engine, uint32_t i, uint32_t *candidate,
-							   size_t candidates)
+/* Takes what particle i has captured out of a list of entries it may meet; returns how many are left. The sieve may
+ * have seen them before: it keeps those that approach, since none is surely outside the step it has not left, and none
+ * makes it leave out another. */
+static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates)
 {
 	uint32_t count;
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
-	for (uint32_t k = 0; k < count; k++) {
-		size_t found = 0;
-		while (found < candidates && candidate[found] != captured[k].entry) found++;
-		if (found < candidates) candidate[found] = candidate[--candidates];
+	size_t left = 0;
+	if (!count) return candidates;
+	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = (uint16_t)(k + 1);
+	for (size_t k = 0; k < candidates; k++) {
+		uint16_t mark = engine->captured[entry_particle(candidate[k])];
+		bool held = mark && captured[mark - 1].entry == candidate[k];
+		if (mark && !held) held = pairs_get(&engine->pairs, i, candidate[k]); /* another image of the same */
+		candidate[left] = candidate[k];
+		left += !held;
 	}
-	return candidates;
+	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = 0;
+	return left;
 }
 
 /* What is taken from r.v at a step, over r.r: after it (r.v)^2 / r.r is less by `climb`, and its sign says in or out.
