@@ -193,8 +193,8 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_all
 						  .drift = 0x1p-40f,
 						  .latest = INFINITY,
 						  .by_order = true};
-	double limit = between(0, 1) < 0.3 ? between(0, 2) / speed : INFINITY;
-	sieve.latest = (float)(limit * 1.001);
+	double limit = between(0, 1) < 0.5 ? (double)soonest : INFINITY; /* whoever was found before comes no later */
+	sieve.latest = nextafterf((float)limit, INFINITY);
 	const struct sieve_machine *machine;
 	for (size_t m = 0; (machine = sieve_machine(m)); m++) {
 		for (uint32_t i = 0; i <= count; i++) cast(machine, &shadow[i], &particle[i]);

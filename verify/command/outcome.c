@@ -79,6 +79,7 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	else if (outcome->status.verdict == TOUCHSTONE_DONE && outcome->status.events < limits.events &&
 			 limits.time == INFINITY)
 		reason(outcome, "no event is left after t = %.17g", outcome->status.time);
+	for (size_t w = 0; w < outcome->virtual_wall_count; w++) touchstone_flux(simulation->engine, w, outcome->fluxes[w]);
 	if (plan->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
 }
 
@@ -114,6 +115,9 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 		}
 		impact_begin(outcome->impact, arithmetic_bits(plan->file->arithmetic));
 	}
+	size_t walls = simulation->scene.virtual_wall_count;
+	outcome->fluxes = calloc(walls + 1, sizeof *outcome->fluxes);
+	outcome->virtual_wall_count = outcome->fluxes ? walls : 0;
 	uint64_t before = 0;
 	bool ready = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
 	if (ready) measure(outcome, plan, simulation, progress, before);
@@ -139,6 +143,7 @@ void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t
 void outcome_free(struct outcome *outcome)
 {
 	free(outcome->impact);
+	free(outcome->fluxes);
 }
 
 uint64_t outcome_peak_memory(void)

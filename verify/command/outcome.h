@@ -15,13 +15,18 @@
  *
  *	seed
  *	events, collisions     physical events after equilibration, and those between two particles
+ *	captures, releases     of pairs, at a step of their potential; bounces: turned back there
+ *	crossings              of virtual walls, which are no events
+ *	captured_pairs         those within a step at the end; potential_energy: of all of them
  *	lookups                bookkeeping: cells crossed and searches repeated
  *	time_begun, time       when equilibration ended, and the last event (or the limit that was reached)
  *	verdict, reason        done, collapsed, halted, diverged, interrupted; why, "" when a limit was reached
  *	complete               false when the run was interrupted
  *	digest                 16 hexadecimal digits
  *	wall_seconds           without start and equilibration, with observers
- *	collisions_per_second, bytes_per_particle
+ *	collisions_per_second, bytes_per_particle, state_bytes_per_particle (of them for tracked states)
+ *	fluxes                 for each virtual wall, what passed it [with its normal, against it]: count, mass, momentum
+ *	                       [x, y, z], energy (kinetic)
  *	conservation           when measured: energy [first, last], momentum [[x, y, z] first, [x, y, z] last],
  *	                       energy_scale, momentum_scale (see measure/conservation.h), energy_drift, momentum_drift
  *	                       (relative to the scale), energy_drift_per_million, momentum_drift_per_million (collisions)
@@ -61,9 +66,11 @@ struct outcome {
 	double wall_seconds; /* without equilibration */
 	bool conservation;   /* measured, at begin and end: */
 	struct conservation conserved[2];
-	struct impact *impact;   /* NULL when not measured; freed by outcome_free */
-	bool failed;             /* there was no run */
-	char error[STORE_ERROR]; /* why it failed, or could not write its particles; "" otherwise */
+	struct impact *impact; /* NULL when not measured; freed by outcome_free */
+	size_t virtual_wall_count;
+	struct touchstone_flux (*fluxes)[2]; /* through each; freed by outcome_free */
+	bool failed;                         /* there was no run */
+	char error[STORE_ERROR];             /* why it failed, or could not write its particles; "" otherwise */
 };
 
 /* Makes one run of the plan. */

@@ -83,12 +83,33 @@ static json_t *conservation_json(const struct outcome *outcome)
 	return json;
 }
 
+static json_t *flux_json(const struct touchstone_flux *flux)
+{
+	return json_pack("{s:o, s:o, s:o, s:o}", "count", whole(flux->count), "mass", number(flux->mass), "momentum",
+					 numbers(flux->momentum, 3), "energy", number(flux->energy));
+}
+
+static json_t *fluxes_json(const struct outcome *outcome)
+{
+	json_t *list = json_array();
+	for (size_t w = 0; w < outcome->virtual_wall_count; w++)
+		json_array_append_new(
+			list, json_pack("[o, o]", flux_json(&outcome->fluxes[w][0]), flux_json(&outcome->fluxes[w][1])));
+	return list;
+}
+
 static void set_run(json_t *json, const struct outcome *outcome)
 {
 	const struct touchstone_status *status = &outcome->status;
 	json_object_set_new(json, "seed", whole(outcome->seed));
 	json_object_set_new(json, "events", whole(status->events));
 	json_object_set_new(json, "collisions", whole(status->collisions));
+	json_object_set_new(json, "captures", whole(status->captures));
+	json_object_set_new(json, "releases", whole(status->releases));
+	json_object_set_new(json, "bounces", whole(status->bounces));
+	json_object_set_new(json, "crossings", whole(status->crossings));
+	json_object_set_new(json, "captured_pairs", whole(status->captured));
+	json_object_set_new(json, "potential_energy", number(status->potential_energy));
 	json_object_set_new(json, "lookups", whole(status->lookups));
 	json_object_set_new(json, "time_begun", number(outcome->time_begun));
 	json_object_set_new(json, "time", number(status->time));
@@ -99,6 +120,9 @@ static void set_run(json_t *json, const struct outcome *outcome)
 	json_object_set_new(json, "wall_seconds", number(outcome->wall_seconds));
 	json_object_set_new(json, "collisions_per_second", number((double)status->collisions / outcome->wall_seconds));
 	json_object_set_new(json, "bytes_per_particle", number((double)status->memory / (double)outcome->particles));
+	json_object_set_new(json, "state_bytes_per_particle",
+						number((double)status->state_memory / (double)outcome->particles));
+	if (outcome->virtual_wall_count) json_object_set_new(json, "fluxes", fluxes_json(outcome));
 	if (outcome->conservation) json_object_set_new(json, "conservation", conservation_json(outcome));
 	if (outcome->impact) json_object_set_new(json, "impact", impact_json(outcome->impact));
 }

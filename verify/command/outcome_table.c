@@ -23,16 +23,36 @@ static double collisions_per_second(const struct outcome *outcome)
 	return outcome->wall_seconds > 0 ? (double)outcome->status.collisions / outcome->wall_seconds : 0;
 }
 
+static void print_fluxes(const struct outcome *outcome)
+{
+	for (size_t w = 0; w < outcome->virtual_wall_count; w++) {
+		const struct touchstone_flux *with = outcome->fluxes[w], *against = &outcome->fluxes[w][1];
+		char name[32];
+		snprintf(name, sizeof name, "wall %zu", w + 1);
+		row(name, "passed %llu times with its normal: mass %g, momentum (%g, %g, %g), energy %g",
+			(unsigned long long)with->count, with->mass, with->momentum[0], with->momentum[1], with->momentum[2],
+			with->energy);
+		row("", "and %llu times against it: mass %g, momentum (%g, %g, %g), energy %g",
+			(unsigned long long)against->count, against->mass, against->momentum[0], against->momentum[1],
+			against->momentum[2], against->energy);
+	}
+}
+
 static void print_one(const struct outcome *outcome)
 {
 	const struct touchstone_status *status = &outcome->status;
 	row("seed", "%llu", (unsigned long long)outcome->seed);
 	row("events", "%llu, of which %llu between particles", (unsigned long long)status->events,
 		(unsigned long long)status->collisions);
+	if (status->captures + status->bounces + status->captured)
+		row("", "%llu captures, %llu releases, %llu bounces; %llu pairs captured at the end",
+			(unsigned long long)status->captures, (unsigned long long)status->releases,
+			(unsigned long long)status->bounces, (unsigned long long)status->captured);
 	row("time", "%.17g", status->time);
 	if (outcome->time_begun > 0) row("", "of which %.17g for equilibration", outcome->time_begun);
 	row("verdict", "%s%s%s", outcome_verdict(outcome), status->reason[0] ? ": " : "", status->reason);
 	row("digest", "%016llx", (unsigned long long)status->digest);
+	print_fluxes(outcome);
 	row("wall time", "%.3g s, %.4g collisions per second", outcome->wall_seconds, collisions_per_second(outcome));
 }
 

@@ -35,6 +35,10 @@ struct conservation conservation_of(const struct touchstone_scene *scene, const 
 		conservation.energy_scale += to_double(mass) * (to_double(kinetic) + fabs(to_double(potential)));
 		conservation.momentum_scale += to_double(mass) * sqrt(to_double(square));
 	}
+	struct touchstone_status status;
+	touchstone_status(engine, &status);
+	energy = add(energy, from_double(status.potential_energy));
+	conservation.energy_scale += fabs(status.potential_energy);
 	store(conservation.energy, energy);
 	for (int axis = 0; axis < 3; axis++) store(conservation.momentum[axis], momentum[axis]);
 	return conservation;

@@ -9,10 +9,11 @@
 #include "touchstone.h"
 
 struct conservation {
-	double energy[2];      /* unevaluated sum, larger part first: of m v^2/2 - m g.x. Along periodic axes gravity has no
-							  potential, and none is counted */
+	double energy[2];      /* unevaluated sum, larger part first: of m v^2/2 - m g.x, and of the pairs' steps by their
+							  tracked states. Along periodic axes gravity has no potential, and none is counted */
 	double momentum[3][2]; /* the same, of m v on each axis */
-	double energy_scale;   /* sum of m v^2/2 + |m g.x|: what a change of energy is to be held against */
+	double energy_scale;   /* sum of m v^2/2 + |m g.x|, and the size of the steps' sum: what a change of energy is to be
+							  held against */
 	double momentum_scale; /* sum of m |v|: the same for momentum */
 };
 
