@@ -101,7 +101,7 @@ static void discs_lie_on_the_points(void **state)
 		for (int row = 0; row < 2; row++)
 			for (int column = 0; column < 2; column++) {
 				struct figure_series series = figure_series(figure, "one", SERIES_POINTS);
-				char name[20];
+				char name[40];
 				series_panel(series, cells[row], cells[column], NULL);
 				for (int k = 0; k < 3; k++) {
 					snprintf(name, sizeof name, "p%d%d%d", row, column, k);
