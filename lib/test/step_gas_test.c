@@ -134,7 +134,7 @@ static struct estimate estimate_of(const double part[PARTS])
 static void assert_one(const double ratio[PARTS], double tolerance, const char *what)
 {
 	struct estimate estimate = estimate_of(ratio);
-	if (brief) tolerance *= 10; /* a run too short for bound pairs to be forgotten */
+	if (brief) tolerance *= 20; /* a run too short for bound pairs to be forgotten */
 	print_message("  %s: %.4f +- %.4f of what is expected\n", what, estimate.mean, estimate.error);
 	assert_true(3 * estimate.error < tolerance);
 	assert_true(fabs(estimate.mean - 1) < tolerance);
