@@ -32,7 +32,7 @@ static void print_fluxes(const struct outcome *outcome)
 {
 	for (size_t w = 0; w < outcome->virtual_wall_count; w++) {
 		const struct touchstone_flux *with = outcome->fluxes[w], *against = &outcome->fluxes[w][1];
-		char name[32];
+		char name[40];
 		snprintf(name, sizeof name, "virtual wall %zu", w + 1);
 		row(name, "passed %llu times with its normal: mass %g, momentum (%g, %g, %g), energy %g",
 			(unsigned long long)with->count, with->mass, with->momentum[0], with->momentum[1], with->momentum[2],
