@@ -72,9 +72,9 @@ static num step_kick(num rv, num rr, num climb, bool inwards)
  * A pair within the step that moves along it cannot be turned by a reflection: where r.v rounds to 0 that does nothing,
  * and at a distance above the step's by rounding no path leads back in. By the stable rule its next event is now, again
  * and for ever: with plain reflections 108 particles at four steps were stuck after 800 events in short:11
- * (lib/test/steps_test.c, coarse_pairs_are_not_stuck). So it turns back with (r.v)^2 of at least 16 n (v.v) (r.r), n
- * the roundoff, which leads in from a distance too long by a factor of 1 + 8 n, and changes the kinetic energy of the
- * pair's relative motion by 16 n of it at most. About 16 n of all bounces are so slow. */
+ * (lib/test/step_engine_test.c, coarse_pairs_are_not_stuck). So it turns back with (r.v)^2 of at least 16 n (v.v)
+ * (r.r), n the roundoff, which leads in from a distance too long by a factor of 1 + 8 n, and changes the kinetic energy
+ * of the pair's relative motion by 16 n of it at most. About 16 n of all bounces are so slow. */
 static num turning_kick(const struct touchstone_engine *engine, const struct encounter *encounter, bool inwards)
 {
 	num rv = encounter->rv, zero = from_double(0), twice = divide(add(rv, rv), encounter->rr);

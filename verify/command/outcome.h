@@ -24,7 +24,7 @@
  *	complete               false when the run was interrupted
  *	digest                 16 hexadecimal digits
  *	wall_seconds           without start and equilibration, with observers
- *	collisions_per_second, bytes_per_particle, state_bytes_per_particle (of them for tracked states)
+ *	events_per_second, collisions_per_second, bytes_per_particle, state_bytes_per_particle (of them for tracked states)
  *	fluxes                 for each virtual wall, what passed it [with its normal, against it]: count, mass, momentum
  *	                       [x, y, z], energy (kinetic)
  *	conservation           when measured: energy [first, last], momentum [[x, y, z] first, [x, y, z] last],

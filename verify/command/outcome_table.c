@@ -23,12 +23,17 @@ static double collisions_per_second(const struct outcome *outcome)
 	return outcome->wall_seconds > 0 ? (double)outcome->status.collisions / outcome->wall_seconds : 0;
 }
 
+static bool has_steps(const struct touchstone_status *status)
+{
+	return status->captures + status->bounces + status->captured > 0;
+}
+
 static void print_fluxes(const struct outcome *outcome)
 {
 	for (size_t w = 0; w < outcome->virtual_wall_count; w++) {
 		const struct touchstone_flux *with = outcome->fluxes[w], *against = &outcome->fluxes[w][1];
-		char name[32];
-		snprintf(name, sizeof name, "wall %zu", w + 1);
+		char name[40];
+		snprintf(name, sizeof name, "virtual wall %zu", w + 1);
 		row(name, "passed %llu times with its normal: mass %g, momentum (%g, %g, %g), energy %g",
 			(unsigned long long)with->count, with->mass, with->momentum[0], with->momentum[1], with->momentum[2],
 			with->energy);
@@ -44,7 +49,7 @@ static void print_one(const struct outcome *outcome)
 	row("seed", "%llu", (unsigned long long)outcome->seed);
 	row("events", "%llu, of which %llu between particles", (unsigned long long)status->events,
 		(unsigned long long)status->collisions);
-	if (status->captures + status->bounces + status->captured)
+	if (has_steps(status))
 		row("", "%llu captures, %llu releases, %llu bounces; %llu pairs captured at the end",
 			(unsigned long long)status->captures, (unsigned long long)status->releases,
 			(unsigned long long)status->bounces, (unsigned long long)status->captured);
@@ -53,7 +58,11 @@ static void print_one(const struct outcome *outcome)
 	row("verdict", "%s%s%s", outcome_verdict(outcome), status->reason[0] ? ": " : "", status->reason);
 	row("digest", "%016llx", (unsigned long long)status->digest);
 	print_fluxes(outcome);
-	row("wall time", "%.3g s, %.4g collisions per second", outcome->wall_seconds, collisions_per_second(outcome));
+	if (has_steps(status))
+		row("wall time", "%.3g s, %.4g events per second", outcome->wall_seconds,
+			(double)status->events / outcome->wall_seconds);
+	else
+		row("wall time", "%.3g s, %.4g collisions per second", outcome->wall_seconds, collisions_per_second(outcome));
 }
 
 static void print_each(const struct outcome *outcomes, size_t count)

@@ -78,8 +78,11 @@ static bool read_lennard_jones(const struct scene_file *file, unsigned p, struct
 		!value_number(file, key[2], words->cutoff, VALUE_POSITIVE, &law.cutoff, error) ||
 		!value_count(file, key[3], words->steps, 1, MOST_STEPS, &count, error))
 		return false;
-	if (!(law.core > 0))
-		return scene_file_refuse(file, error, key[0], "without a core to begin at; accepted: a core above 0");
+	if (!(law.core > 0)) {
+		snprintf(key[0], YAML_PATH, "potentials[%u].core", p);
+		return scene_file_refuse(file, error, key[0], "%g, so that there is no first step; accepted: a core above 0",
+								 law.core);
+	}
 	if (!(law.cutoff > law.core))
 		return scene_file_refuse(file, error, key[2], "%g; accepted: above the core, %g", law.cutoff, law.core);
 	struct touchstone_step *steps = new_steps(potential, count);
