@@ -14,7 +14,7 @@ CC       := gcc
 OPTIMISE := -O3
 WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
 CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp -Wno-psabi $(EXTRA)
-CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -DTOUCHSTONE_CASES='"$(CURDIR)/cases"' -MMD -MP
+CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
 LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
 
@@ -103,6 +103,10 @@ $(BUILD)/object/%.o: %.c
 $(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart bench/main): CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
+# Where the cases are when there are none in the folder one works in.
+cases_folder := -DTOUCHSTONE_CASES='"$(CURDIR)/cases"'
+$(BUILD)/object/verify/command/cases.o: CPPFLAGS += $(cases_folder)
+
 # Templates and plot scripts are part of the program.
 $(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
 $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
@@ -117,7 +121,7 @@ $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 $(BUILD)/object/lib/finder/batch.o: CFLAGS += -fno-trapping-math
 
 $(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"' \
-	-DTOUCHSTONE_BENCH='"$(BUILD)/bench"'
+	-DTOUCHSTONE_BENCH='"$(BUILD)/bench"' $(cases_folder)
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
