@@ -22,13 +22,14 @@ struct campaign_work {
 	} * missing;
 	size_t missing_count, taken;
 	double cost, done; /* of all that is missing */
-	bool failed;
+	bool lost;         /* nothing more can be kept */
+	size_t refused;    /* pieces */
 	char *error;
 };
 
 static bool stopped(const struct campaign_work *work)
 {
-	return work->failed || (work->setup->stop && *work->setup->stop);
+	return work->lost || (work->setup->stop && *work->setup->stop);
 }
 
 static double cost_of(const struct campaign *campaign, size_t piece)
@@ -92,23 +93,19 @@ static void report(const struct campaign_watch *watch, double part)
 	advance(watch->work, &watch->work->missing[watch->piece], fmin(fmax(part, 0), 1));
 }
 
-/* Keeps what became of a piece: a result, an error, or neither when it was stopped. */
+/* Keeps what became of a piece: a result, an error, or neither when it was stopped. The first error is the one told. */
 static void keep(struct campaign_work *work, struct missing *missing, json_t *result, const char *error)
 {
 	const struct campaign *campaign = work->campaign;
 	char key[CAMPAIGN_KEY];
-	if (result) {
-		campaign->key(campaign->context, missing->piece, key);
-		json_array_set_new(work->results, missing->piece, result);
-		advance(work, missing, 1);
-		if (!work->store || piece_store_add(work->store, key, result, work->error)) return;
-	} else if (!*error) {
-		advance(work, missing, 0);
+	advance(work, missing, result || *error ? 1 : 0);
+	if (!result) {
+		if (*error && work->refused++ == 0) snprintf(work->error, CAMPAIGN_ERROR, "%s", error);
 		return;
-	} else if (!work->failed) {
-		snprintf(work->error, CAMPAIGN_ERROR, "%s", error);
 	}
-	work->failed = true;
+	campaign->key(campaign->context, missing->piece, key);
+	json_array_set_new(work->results, missing->piece, result);
+	if (work->store && !work->lost) work->lost = !piece_store_add(work->store, key, result, work->error);
 }
 
 /* What each thread does: takes a piece, makes it, keeps it, until none is left. */
@@ -160,7 +157,8 @@ json_t *campaign_run(const struct campaign *campaign, const struct campaign_setu
 #pragma omp parallel num_threads(setup->threads)
 		labour(&work);
 	}
-	good = piece_store_close(work.store, work.failed ? NULL : error) && good && !work.failed;
+	good = good && !work.lost && work.refused == 0;
+	good = piece_store_close(work.store, good ? error : NULL) && good;
 	free(work.missing);
 	if (good) return work.results;
 	json_decref(work.results);

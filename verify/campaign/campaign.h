@@ -56,8 +56,8 @@ struct campaign_setup {
 };
 
 /* Makes what is missing. Returns the results of all pieces in their order, null for those that a stop left unmade, and
- * the caller owns them; or NULL with one line in `error` when a piece or the store refuses: what was finished by then
- * is kept. */
+ * the caller owns them; or NULL with one line in `error` when a piece refuses (the others are made and kept all the
+ * same) or the store does. */
 json_t *campaign_run(const struct campaign *campaign, const struct campaign_setup *setup, char error[CAMPAIGN_ERROR]);
 
 /* Removes what is kept of a campaign, when its numbers have gone where they belong. */
