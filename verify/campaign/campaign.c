@@ -128,10 +128,10 @@ static void labour(struct campaign_work *work)
 static bool open_store(struct campaign_work *work)
 {
 	const struct campaign_setup *setup = work->setup;
-	char *path = NULL;
 	if (!setup->folder) return true;
 	if (!aside_folder(setup->folder, work->error)) return false;
-	if (asprintf(&path, "%s/%s.pieces", setup->folder, work->campaign->name) < 0) return false;
+	char *path = campaign_store_path(setup->folder, work->campaign->name, setup->part);
+	if (!path) return snprintf(work->error, CAMPAIGN_ERROR, "out of memory"), false;
 	work->store = piece_store_open(path, work->campaign->name, work->error);
 	free(path);
 	for (size_t n = 0; work->store && n < piece_store_note_count(work->store); n++) {
@@ -165,11 +165,16 @@ json_t *campaign_run(const struct campaign *campaign, const struct campaign_setu
 	return NULL;
 }
 
-void campaign_forget(const char *name, const char *folder)
+char *campaign_store_path(const char *folder, const char *name, const char *part)
 {
 	char *path;
-	if (asprintf(&path, "%s/%s.pieces", folder, name) < 0) return;
-	unlink(path);
+	return asprintf(&path, "%s/%s%s%s.pieces", folder, name, part ? "-" : "", part ? part : "") < 0 ? NULL : path;
+}
+
+void campaign_forget(const char *name, const char *folder)
+{
+	char *path = campaign_store_path(folder, name, NULL);
+	if (path) unlink(path);
 	free(path);
 }
 
