@@ -18,13 +18,17 @@ CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
 LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
 
-sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*')
+sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 BENCH    := verify/bench/main.c
 LIBRARY  := $(call objects,$(call sources,lib))
 PARTS    := $(call objects,$(filter-out $(MAIN) $(BENCH),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
+
+# Campaigns on several machines: a module that is loaded by programs which mpirun launched, and by no others.
+MPICC    := $(shell command -v mpicc)
+MPI      := $(if $(MPICC),$(BUILD)/touchstone-mpi.so)
 
 # Finders by others: the worked example, as C11 and as C++, and some that do everything wrong.
 PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
@@ -34,7 +38,7 @@ PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard 
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(BUILD)/touchstone
+all: $(BUILD)/touchstone $(MPI)
 	@echo "built $<; next: '$< list', '$< run cases/hard-spheres.yaml', 'make report' or 'make test'"
 
 report:
@@ -127,7 +131,11 @@ $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
 
-$(TESTS): | $(PLUGINS) $(BUILD)/bench
+$(TESTS): | $(PLUGINS) $(BUILD)/bench $(MPI)
+
+$(BUILD)/touchstone-mpi.so: verify/mpi/ranks_mpi.c verify/campaign/ranks.h
+	@mkdir -p $(@D)
+	$(call say,module $@) OMPI_CC='$(CC)' $(MPICC) -std=gnu17 -O2 $(WARNINGS) -shared -fPIC -Iverify -o $@ $<
 
 # As a stranger would compile them: against lib/touchstone.h alone.
 $(BUILD)/plugins/%.so: verify/test/plugins/%.c lib/touchstone.h

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "campaign/courier.h"
 #include "command/campaign_table.h"
 #include "command/campaigning.h"
 #include "command/cases.h"
@@ -19,7 +20,8 @@ enum { RESULTS = 256, THREADS, SHARD, JSON, CASES };
 
 static const struct argp_option options[] = {
 	{"results", RESULTS, "DIR", 0, "Where runs and tables are kept (build/results)", 1},
-	{"threads", THREADS, "K", 0, "Runs side by side (as many as there are cores); the numbers do not depend on it", 1},
+	{"threads", THREADS, "K", 0,
+	 "Runs side by side (as many as there are cores; on ranks, 1 on the first); the numbers do not depend on it", 1},
 	{"shard", SHARD, "I/N", 0,
 	 "Make only the I-th of N equal parts, into a store of its own; `touchstone merge` puts them together", 1},
 	{"json", JSON, "FILE", 0, "Write all runs as JSON, too; - for standard output", 2},
@@ -28,7 +30,7 @@ static const struct argp_option options[] = {
 
 struct wish {
 	const char *file, *results, *folder, *json, *command;
-	int threads;
+	int threads; /* 0: chosen */
 	size_t shard, shards;
 };
 
@@ -148,7 +150,19 @@ static int tell(const struct wish *wish, const struct campaign_file *file, const
 	return interrupted() ? STATUS_INTERRUPTED : broken ? STATUS_FINDING : STATUS_WELL;
 }
 
-static int make(const struct wish *wish, struct campaigning *pieces)
+/* One of several ranks. Only the first of them has anything to say or to write. */
+struct place {
+	const struct ranks *ranks; /* NULL: alone */
+	int rank, count;
+};
+
+/* An end that was asked for does not wait for ranks that are no longer there. */
+static void leave(const struct place *place)
+{
+	if (place->ranks && !interrupted()) place->ranks->end();
+}
+
+static int make(const struct wish *wish, struct campaigning *pieces, const struct place *place)
 {
 	char error[CAMPAIGN_ERROR], part[40];
 	const struct campaign_file *file = pieces->file;
@@ -160,12 +174,19 @@ static int make(const struct wish *wish, struct campaigning *pieces)
 										 .part = wish->shards ? part : NULL,
 										 .threads = wish->threads,
 										 .stop = interrupt_flag(),
+										 .ranks = place->ranks,
+										 .rank_count = place->count,
 										 .progress = show,
 										 .context = &progress};
-	interrupt_watch();
+	if (place->rank > 0) {
+		courier_make(&campaign, place->ranks, interrupt_flag());
+		leave(place);
+		return interrupted() ? STATUS_INTERRUPTED : STATUS_WELL;
+	}
 	double began = progress_clock();
 	json_t *results = campaign_run(&campaign, &setup, error);
 	progress_end(&progress);
+	leave(place);
 	if (!results) return refuse("%s", error);
 	int status = interrupted() ? STATUS_INTERRUPTED : STATUS_WELL;
 	if (wish->shards)
@@ -177,7 +198,7 @@ static int make(const struct wish *wish, struct campaigning *pieces)
 	return status;
 }
 
-static int open_and_make(const struct wish *wish, const struct campaign_file *file)
+static int open_and_make(const struct wish *wish, const struct campaign_file *file, const struct place *place)
 {
 	char error[STORE_ERROR];
 	struct campaigning pieces;
@@ -185,7 +206,7 @@ static int open_and_make(const struct wish *wish, const struct campaign_file *fi
 	char *store = campaign_store_path(wish->results, file->name, NULL);
 	bool good = store && (wish->shards == 0 || campaigning_choose(&pieces, wish->shard, wish->shards, store, error));
 	if (!store) snprintf(error, sizeof error, "out of memory");
-	int status = good ? make(wish, &pieces) : refuse("%s", error);
+	int status = good ? make(wish, &pieces, place) : refuse("%s", error);
 	free(store);
 	campaigning_close(&pieces);
 	return status;
@@ -201,7 +222,24 @@ static char *find_campaign(const char *cases, const char *name)
 	return path;
 }
 
-static int campaign(const struct wish *wish)
+/* Takes its place among the ranks, if there are any. Not STATUS_WELL when it cannot. */
+static int take_place(struct place *place, struct wish *wish)
+{
+	char error[512];
+	if (ranks_launched()) {
+		place->ranks = ranks_load(error);
+		if (!place->ranks) {
+			if (ranks_number() == 0) refuse("campaign: %s", error);
+			return STATUS_SKIPPED;
+		}
+		place->ranks->begin(&place->rank, &place->count);
+	}
+	if (wish->threads == 0) wish->threads = place->count > 1 ? 1 : omp_get_num_procs();
+	interrupt_watch();
+	return STATUS_WELL;
+}
+
+static int campaign(struct wish *wish)
 {
 	char error[STORE_ERROR];
 	if (wish->json && !output_possible(wish->json, error)) return refuse("%s", error);
@@ -210,8 +248,10 @@ static int campaign(const struct wish *wish)
 	const char *cases = cases_folder(wish->folder);
 	char *path = find_campaign(cases, wish->file);
 	if (!path) return refuse("%s: no such file, nor in %s/campaigns; accepted: a campaign file", wish->file, cases);
+	struct place place = {.count = 1};
 	struct campaign_file *file = campaign_file_open(path, cases, error);
-	int status = file ? open_and_make(wish, file) : refuse("%s", error);
+	int status = file ? take_place(&place, wish) : refuse("%s", error);
+	if (status == STATUS_WELL) status = open_and_make(wish, file, &place);
 	campaign_file_close(file);
 	free(path);
 	return status;
@@ -234,12 +274,14 @@ int command_campaign(int argc, char **argv)
 			"For a batch scheduler: `touchstone campaign FILE --shard 3/8` makes one part of eight, `touchstone merge "
 			"DIR/NAME.pieces DIR/NAME-*-of-8.pieces` puts them together, and then `touchstone campaign FILE` makes "
 			"what "
-			"is still missing and writes the tables.\n\n"
+			"is still missing and writes the tables. With Open MPI: `mpirun -n K touchstone campaign FILE` makes a run "
+			"on "
+			"each rank at a time; a rank that dies ends the job, and calling it again makes what is missing.\n\n"
 			"Exit status: 0 all runs done or collapsed; 1 one has halted or diverged; 2 bad input, or a run that could "
 			"not begin; 130 interrupted, what was finished by then is kept.\n\n"
 			"Example: touchstone campaign restitution-density --threads 2",
 	};
-	struct wish wish = {.results = "build/results", .threads = omp_get_num_procs()};
+	struct wish wish = {.results = "build/results"};
 	char *command = command_line(argc, argv);
 	wish.command = command ? command : "";
 	argp_parse(&argp, argc, argv, 0, NULL, &wish);
