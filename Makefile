@@ -126,7 +126,7 @@ $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 $(BUILD)/object/lib/finder/batch.o: CFLAGS += -fno-trapping-math
 
 $(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"' \
-	-DTOUCHSTONE_BENCH='"$(BUILD)/bench"' $(cases_folder)
+	-DTOUCHSTONE_BENCH='"$(BUILD)/bench"' -DTOUCHSTONE_MPI='"$(BUILD)/touchstone-mpi.so"' $(cases_folder)
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
