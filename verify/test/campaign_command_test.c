@@ -236,7 +236,7 @@ static void ranks_agree(void **state)
 	char file[200], results[200], path[240];
 	snprintf(file, sizeof file, "%s/small.yaml", folder);
 	for (int count = 2; count <= 4; count += 2) {
-		char number[4];
+		char number[12];
 		snprintf(number, sizeof number, "%d", count);
 		snprintf(results, sizeof results, "%s/ranks%d", folder, count);
 		snprintf(path, sizeof path, "%s/runs.json", folder);
