@@ -3,8 +3,8 @@
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+
+#include "command/beside.h"
 
 /* What Open MPI's mpirun, and launchers that speak PMIx, tell the programs they launch. */
 static const char *const numbers[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK"};
@@ -27,22 +27,17 @@ int ranks_number(void)
 
 const struct ranks *ranks_load(char error[512])
 {
-	static const char *const places[] = {"touchstone-mpi.so", "../lib/touchstone/touchstone-mpi.so"};
-	char program[3000], path[4000];
-	ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-	program[length > 0 ? length : 0] = '\0';
-	char *slash = strrchr(program, '/');
-	if (slash) *slash = '\0';
-	for (int p = 0; slash && p < 2; p++) {
-		snprintf(path, sizeof path, "%s/%s", program, places[p]);
-		if (access(path, F_OK) != 0) continue;
-		void *module = dlopen(path, RTLD_NOW | RTLD_GLOBAL); /* Open MPI's own modules look for its names */
-		const struct ranks *ranks = module ? dlsym(module, "touchstone_ranks") : NULL;
-		if (!ranks) snprintf(error, 512, "MPI cannot be used: %.400s", dlerror());
-		return ranks;
+	char *path = beside_program("touchstone-mpi.so");
+	if (!path) path = beside_program("../lib/touchstone/touchstone-mpi.so");
+	if (!path) {
+		snprintf(error, 512,
+				 "built without MPI, of which mpirun would have it be a rank; accepted: a build where mpicc "
+				 "is found, or --shard I/N");
+		return NULL;
 	}
-	snprintf(error, 512,
-			 "built without MPI, of which mpirun would have it be a rank; accepted: a build where mpicc is "
-			 "found, or --shard I/N");
-	return NULL;
+	void *module = dlopen(path, RTLD_NOW | RTLD_GLOBAL); /* Open MPI's own modules look for its names */
+	const struct ranks *ranks = module ? dlsym(module, "touchstone_ranks") : NULL;
+	if (!ranks) snprintf(error, 512, "MPI cannot be used: %.400s", dlerror());
+	free(path);
+	return ranks;
 }

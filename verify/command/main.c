@@ -65,7 +65,7 @@ int main(int argc, char **argv)
 {
 	atexit(check_output);
 	argp_err_exit_status = STATUS_REFUSED;
-	argp_program_version = "touchstone 0.1";
+	argp_program_version = "touchstone " TOUCHSTONE_VERSION;
 
 	struct argp_option options[COMMANDS + 2] = {{.doc = "Commands:"}};
 	for (int c = 0; c < COMMANDS; c++)
