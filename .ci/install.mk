@@ -11,7 +11,7 @@ copy       = install -m 644 $(1) $(call place,$(2))
 # Here MPFR and GMP are linked as shared objects, as programs that embed the library expect.
 $(BUILD)/$(SHARED): $(LIBRARY)
 	$(call say,link $@) $(CC) $(filter -fsanitize=%,$(CFLAGS)) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -Wl,--as-needed \
-		-o $@ $^ -lmpfr -lgmp -lm
+		-Wl,--strip-debug -o $@ $^ -lmpfr -lgmp -lm
 
 # One object, in which names of our own can meet nobody else's.
 $(BUILD)/embed/libtouchstone.a: $(LIBRARY)

@@ -5,11 +5,16 @@ _touchstone_names() {
 	"$1" list "$2" 2>/dev/null | sed -n 's/^  \([^ ]\{1,\}\)  .*/\1/p'
 }
 
+# The kinds there are: what the usage of `list` has between bars.
+_touchstone_kinds() {
+	"$1" list --help | sed '/^$/,$d' | grep -oE '\[[a-z]+(\|[a-z]+)+\]' | tr '[]|' '   '
+}
+
 # The kind that a word stands for, such as methods for METHOD or --method.
 _touchstone_kind() {
 	local word=$2 kind
 	case $word in scene) word=case ;; against) word=arithmetic ;; esac
-	for kind in $("$1" list --help | sed -n 's/^Usage: .*\[\([a-z|]*\)\].*/\1/p' | tr '|' ' '); do
+	for kind in $(_touchstone_kinds "$1"); do
 		case $kind in "${word}s" | "${word%y}ies") echo "$kind" ;; esac
 	done
 }
@@ -33,11 +38,13 @@ _touchstone() {
 	fi
 	if [[ $before == --* ]]; then
 		wanted=${before#--}
+	elif [[ $command == list ]]; then
+		mapfile -t COMPREPLY < <(compgen -W "$(_touchstone_kinds "$program")" -- "$word")
+		return
+	elif [[ $command == campaign ]]; then
+		wanted=campaign
 	else # what the usage names in capitals, behind the options
 		wanted=$(sed -n '1s/.*\[OPTION\.\.\.\] *\[\{0,1\}\([A-Z]*\).*/\1/p' <<<"$help" | tr A-Z a-z)
-		[[ $command == list ]] && mapfile -t COMPREPLY < <(compgen -W \
-			"$(sed -n '1s/.*\[\([a-z|]*\)\].*/\1/p' <<<"$help" | tr '|' ' ')" -- "$word") && return
-		[[ $command == campaign ]] && wanted=campaign
 	fi
 	kind=$(_touchstone_kind "$program" "$wanted")
 	[[ $kind ]] && mapfile -t COMPREPLY < <(compgen -W "$(_touchstone_names "$program" "$kind")" -- "$word")
