@@ -102,7 +102,7 @@ static void bad_usage_is_one_line(void **state)
 	static const struct {
 		const char *arguments, *words;
 	} wrong[] = {
-		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, replay, report"},
+		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, replay, campaign"},
 		{"run", "no scene"},
 		{"run cradle column", "second scene"},
 		{"run nowhere.yaml", "nowhere.yaml: no such file"},
