@@ -20,7 +20,7 @@ static struct moment moment_scaled(struct moment moment, num factor, double page
 static bool engine_rescale(struct touchstone_engine *engine, int exponent)
 {
 	static const int most = 64; /* in one step */
-	if (!scales(engine) || abs(exponent) > most) return false;
+	if (!scales(engine) || exponent < -most || exponent > most) return false;
 	double slower = ldexp(1, -exponent);
 	num speed = from_double(ldexp(1, exponent)), time = from_double(slower);
 	for (uint32_t i = 0; i < engine->count; i++) {
