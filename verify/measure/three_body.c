@@ -1,5 +1,6 @@
 #include "measure/three_body.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 bool three_body_begin(struct three_body *three_body, size_t particles)
@@ -17,17 +18,17 @@ void three_body_end(struct three_body *three_body)
 
 enum { ROOM = 16 }; /* no more spheres than 12 touch one of their size */
 
-/* The third particle that one of a pair overlaps, if it does and there is one; otherwise the partner itself. `touch`
- * tells whether it overlaps the partner. */
-static uint32_t third_of(const struct touchstone_engine *engine, uint32_t particle, uint32_t partner, bool *touch)
+/* The third particle that one of a pair overlaps, if it does and there is one; otherwise the partner itself. `depth`
+ * tells by how much it overlaps the partner; 0: not at all. */
+static uint32_t third_of(const struct touchstone_engine *engine, uint32_t particle, uint32_t partner, double *depth)
 {
 	struct touchstone_overlap list[ROOM];
 	size_t count = touchstone_overlaps(engine, particle, list, ROOM);
 	uint32_t third = partner;
-	*touch = false;
+	*depth = 0;
 	for (size_t k = 0; k < count && k < ROOM; k++)
 		if (list[k].partner == partner)
-			*touch = true;
+			*depth = list[k].depth;
 		else
 			third = list[k].partner;
 	return third;
@@ -51,14 +52,16 @@ void three_body_see(void *context, struct touchstone_engine *engine, const struc
 	if (event->kind != TOUCHSTONE_CONTACT) return;
 	uint32_t first = event->first, second = event->second, third = second;
 	uint64_t *trio = three_body->trio;
-	bool overlap = false;
+	double depth = 0;
 	three_body->contacts++;
 	if (trio[first] != trio[second]) trio[first] = trio[second] = 0;
 	if (event->steps > clear) return;
-	third = third_of(engine, first, second, &overlap);
-	if (!overlap) return;
+	third = third_of(engine, first, second, &depth);
+	if (depth == 0) return;
 	three_body->overlapping++;
-	if (third == second) third = third_of(engine, second, first, &overlap);
+	three_body->depth += depth;
+	three_body->deepest = fmax(three_body->deepest, depth);
+	if (third == second) third = third_of(engine, second, first, &depth);
 	if (third != second && third != first) enter(three_body, first, second, third);
 }
 
@@ -80,6 +83,8 @@ void three_body_merge(struct three_body *into, const struct three_body *from)
 {
 	into->contacts += from->contacts;
 	into->overlapping += from->overlapping;
+	into->depth += from->depth;
+	into->deepest = fmax(into->deepest, from->deepest);
 	into->events += from->events;
 	into->encounters += from->encounters;
 }

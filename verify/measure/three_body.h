@@ -9,7 +9,9 @@
 
 struct three_body {
 	uint64_t contacts;    /* executed */
-	uint64_t overlapping; /* of them: the two then overlap */
+	uint64_t overlapping; /* of them: the two then overlap, */
+	double depth;         /* by so much in all, */
+	double deepest;       /* and by so much at most */
 	uint64_t events;      /* of those: one of the two then overlaps a third particle as well */
 	uint64_t encounters;  /* of those: the first of its three since one of them met a fourth. What stabilises them
 							 follows at once, so that events come in bursts and only encounters are independent */
