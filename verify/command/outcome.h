@@ -30,6 +30,10 @@
  *	conservation           when measured: energy [first, last], momentum [[x, y, z] first, [x, y, z] last],
  *	                       energy_scale, momentum_scale (see measure/conservation.h), energy_drift, momentum_drift
  *	                       (relative to the scale), energy_drift_per_million, momentum_drift_per_million (collisions)
+ *	three_body             when measured: contacts; overlapping, those after which the two overlap; events, those after
+ *	                       which one of them overlaps a third as well, rate, rate_interval (per contact, 95 %);
+ *	                       encounters, those that do not just follow another of the same three, encounter_rate and
+ *	                       encounter_rate_interval
  *	impact                 when measured: contacts; measured and exact, each with below, above, fraction_below,
  *	                       fraction_below_interval (95 %), mean_ulp, deviation_ulp, least_ulp, most_ulp (ulp: the step
  *	                       from the contact distance upwards), and bars, counts per representable number, of
@@ -44,6 +48,7 @@
 #include "command/simulation.h"
 #include "measure/conservation.h"
 #include "measure/impact.h"
+#include "measure/three_body.h"
 
 /* What is to be run, once or several times. */
 struct run_plan {
@@ -52,8 +57,8 @@ struct run_plan {
 	struct touchstone_limits limits; /* after equilibration */
 	const char *const *settings;
 	size_t setting_count;
-	bool conservation, impact; /* measured? */
-	const char *xyz;           /* file for the final configuration, or NULL */
+	bool conservation, impact, three_body; /* measured? */
+	const char *xyz;                       /* file for the final configuration, or NULL */
 };
 
 /* What became of one run. */
@@ -67,6 +72,8 @@ struct outcome {
 	bool conservation;   /* measured, at begin and end: */
 	struct conservation conserved[2];
 	struct impact *impact; /* NULL when not measured; freed by outcome_free */
+	bool three_bodies;     /* measured: */
+	struct three_body three_body;
 	size_t virtual_wall_count;
 	struct touchstone_flux (*fluxes)[2]; /* through each; freed by outcome_free */
 	bool failed;                         /* there was no run */
@@ -88,6 +95,9 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 
 /* The most memory this program has held so far, in bytes. */
 uint64_t outcome_peak_memory(void);
+
+/* All three-body events of several outcomes; false when they were not measured. */
+bool outcome_three_body(const struct outcome *outcomes, size_t count, struct three_body *together);
 
 /* All impacts of several outcomes; NULL when they were not measured. The caller frees it. */
 struct impact *outcome_impact(const struct outcome *outcomes, size_t count);

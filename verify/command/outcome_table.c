@@ -114,6 +114,18 @@ static void print_conservation(const struct run_plan *plan, const struct outcome
 	if (pushed) row("", "walls and gravity change it");
 }
 
+static void print_three_body(const struct three_body *three_body)
+{
+	struct interval events, encounters;
+	double rate = three_body_rate(three_body, &events);
+	double encounter_rate = three_body_encounter_rate(three_body, &encounters);
+	row("three-body", "%llu of %llu contacts: %.3g per contact (95 %%: %.3g to %.3g)",
+		(unsigned long long)three_body->events, (unsigned long long)three_body->contacts, rate, events.low,
+		events.high);
+	row("", "in %llu encounters: %.3g per contact (95 %%: %.3g to %.3g)", (unsigned long long)three_body->encounters,
+		encounter_rate, encounters.low, encounters.high);
+}
+
 static void print_measures(const struct run_plan *plan, const struct outcome *outcomes, size_t count)
 {
 	struct impact *impact = outcome_impact(outcomes, count);
@@ -123,6 +135,8 @@ static void print_measures(const struct run_plan *plan, const struct outcome *ou
 		print_histogram("  exactly", &impact->exact, impact->count);
 	}
 	free(impact);
+	struct three_body three_body;
+	if (outcome_three_body(outcomes, count, &three_body) && three_body.contacts > 0) print_three_body(&three_body);
 	for (size_t o = 0; o < count; o++) {
 		if (outcomes[o].conservation && count > 1) row("seed", "%llu", (unsigned long long)outcomes[o].seed);
 		if (outcomes[o].conservation) print_conservation(plan, &outcomes[o]);
