@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "campaign/campaign.h"
 #include "command/interrupt.h"
 #include "command/progress.h"
 #include "figure/figure.h"
@@ -89,6 +90,7 @@ static int make(int f, const struct arguments *arguments)
 		.full = arguments->full,
 		.seed = arguments->seed,
 		.threads = arguments->threads,
+		.folder = arguments->results,
 		.stop = interrupt_flag(),
 		.progress = show,
 		.context = &progress,
@@ -104,6 +106,7 @@ static int make(int f, const struct arguments *arguments)
 	bool written = result_write(result, arguments->results, error);
 	result_free(result);
 	if (!written) return refuse("%s", error);
+	if (!interrupted()) campaign_forget(figures[f].name, arguments->results);
 	fprintf(stderr, "%s: %s in %.1f s, stored as %s/%s.json\n", figures[f].name,
 			interrupted() ? "interrupted" : "measured", seconds, arguments->results, figures[f].name);
 	return STATUS_WELL;
