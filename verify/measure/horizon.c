@@ -42,7 +42,7 @@ static bool agree(struct horizon *horizon, const struct runner *here, const stru
 	size_t most = here->count < there->count ? here->count : there->count, k = 0;
 	for (; k < most && same(&here->event[k], &there->event[k]); k++) {
 		horizon->events++;
-		horizon->per_particle += (here->event[k].kind == TOUCHSTONE_CONTACT ? 2.0 : 1.0) / particles;
+		horizon->per_particle += (here->event[k].kind == TOUCHSTONE_WALL ? 1.0 : 2.0) / particles;
 		horizon->time = there->time[k];
 	}
 	if (k == here->count && k == there->count) return true;

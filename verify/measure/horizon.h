@@ -17,7 +17,8 @@ struct horizon_event {
 
 struct horizon {
 	uint64_t events;     /* both sequences have these in common */
-	double per_particle; /* of them, those that a mean particle takes part in: a contact counts for two particles */
+	double per_particle; /* of them, those that a mean particle takes part in: an event of a pair counts for two
+							particles */
 	double time;         /* of the last one */
 	bool differ;         /* false: all events that the limits allow, so that the horizon lies further on */
 	bool stopped;        /* by the watch, before a difference was found */
