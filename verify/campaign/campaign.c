@@ -22,13 +22,14 @@ struct campaign_work {
 	} * missing;
 	size_t missing_count, taken;
 	double cost, done; /* of all that is missing */
-	bool failed;
+	bool lost;         /* nothing more can be kept */
+	size_t refused;    /* pieces */
 	char *error;
 };
 
 static bool stopped(const struct campaign_work *work)
 {
-	return work->failed || (work->setup->stop && *work->setup->stop);
+	return work->lost || (work->setup->stop && *work->setup->stop);
 }
 
 static double cost_of(const struct campaign *campaign, size_t piece)
@@ -92,23 +93,19 @@ static void report(const struct campaign_watch *watch, double part)
 	advance(watch->work, &watch->work->missing[watch->piece], fmin(fmax(part, 0), 1));
 }
 
-/* Keeps what became of a piece: a result, an error, or neither when it was stopped. */
+/* Keeps what became of a piece: a result, an error, or neither when it was stopped. The first error is the one told. */
 static void keep(struct campaign_work *work, struct missing *missing, json_t *result, const char *error)
 {
 	const struct campaign *campaign = work->campaign;
 	char key[CAMPAIGN_KEY];
-	if (result) {
-		campaign->key(campaign->context, missing->piece, key);
-		json_array_set_new(work->results, missing->piece, result);
-		advance(work, missing, 1);
-		if (!work->store || piece_store_add(work->store, key, result, work->error)) return;
-	} else if (!*error) {
-		advance(work, missing, 0);
+	advance(work, missing, result || *error ? 1 : 0);
+	if (!result) {
+		if (*error && work->refused++ == 0) snprintf(work->error, CAMPAIGN_ERROR, "%s", error);
 		return;
-	} else if (!work->failed) {
-		snprintf(work->error, CAMPAIGN_ERROR, "%s", error);
 	}
-	work->failed = true;
+	campaign->key(campaign->context, missing->piece, key);
+	json_array_set_new(work->results, missing->piece, result);
+	if (work->store && !work->lost) work->lost = !piece_store_add(work->store, key, result, work->error);
 }
 
 /* What each thread does: takes a piece, makes it, keeps it, until none is left. */
@@ -131,10 +128,10 @@ static void labour(struct campaign_work *work)
 static bool open_store(struct campaign_work *work)
 {
 	const struct campaign_setup *setup = work->setup;
-	char *path = NULL;
 	if (!setup->folder) return true;
 	if (!aside_folder(setup->folder, work->error)) return false;
-	if (asprintf(&path, "%s/%s.pieces", setup->folder, work->campaign->name) < 0) return false;
+	char *path = campaign_store_path(setup->folder, work->campaign->name, setup->part);
+	if (!path) return snprintf(work->error, CAMPAIGN_ERROR, "out of memory"), false;
 	work->store = piece_store_open(path, work->campaign->name, work->error);
 	free(path);
 	for (size_t n = 0; work->store && n < piece_store_note_count(work->store); n++) {
@@ -160,18 +157,24 @@ json_t *campaign_run(const struct campaign *campaign, const struct campaign_setu
 #pragma omp parallel num_threads(setup->threads)
 		labour(&work);
 	}
-	good = piece_store_close(work.store, work.failed ? NULL : error) && good && !work.failed;
+	good = good && !work.lost && work.refused == 0;
+	good = piece_store_close(work.store, good ? error : NULL) && good;
 	free(work.missing);
 	if (good) return work.results;
 	json_decref(work.results);
 	return NULL;
 }
 
-void campaign_forget(const char *name, const char *folder)
+char *campaign_store_path(const char *folder, const char *name, const char *part)
 {
 	char *path;
-	if (asprintf(&path, "%s/%s.pieces", folder, name) < 0) return;
-	unlink(path);
+	return asprintf(&path, "%s/%s%s%s.pieces", folder, name, part ? "-" : "", part ? part : "") < 0 ? NULL : path;
+}
+
+void campaign_forget(const char *name, const char *folder)
+{
+	char *path = campaign_store_path(folder, name, NULL);
+	if (path) unlink(path);
 	free(path);
 }
 

@@ -45,6 +45,7 @@ struct campaign {
 
 struct campaign_setup {
 	const char *folder;       /* where the pieces are kept, made if need be; NULL: nowhere */
+	const char *part;         /* of the campaign that is made here, for the store's name, such as "2-of-4"; NULL: all */
 	bool this_revision;       /* leave out, and make again, what another revision of the program has made */
 	int threads;              /* pieces made side by side; no number depends on it */
 	const volatile int *stop; /* non-zero: come to an end with what is done; or NULL */
@@ -56,9 +57,12 @@ struct campaign_setup {
 };
 
 /* Makes what is missing. Returns the results of all pieces in their order, null for those that a stop left unmade, and
- * the caller owns them; or NULL with one line in `error` when a piece or the store refuses: what was finished by then
- * is kept. */
+ * the caller owns them; or NULL with one line in `error` when a piece refuses (the others are made and kept all the
+ * same) or the store does. */
 json_t *campaign_run(const struct campaign *campaign, const struct campaign_setup *setup, char error[CAMPAIGN_ERROR]);
+
+/* FOLDER/NAME.pieces, or FOLDER/NAME-PART.pieces; the caller frees it, NULL when out of memory. */
+char *campaign_store_path(const char *folder, const char *name, const char *part);
 
 /* Removes what is kept of a campaign, when its numbers have gone where they belong. */
 void campaign_forget(const char *name, const char *folder);

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <inttypes.h>
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,8 +44,7 @@ __attribute__((format(printf, 2, 3))) static void note(struct piece_store *store
 	json_array_append_new(store->notes, json_string(text));
 }
 
-/* FNV-1a of 64 bits (Fowler, Noll and Vo). */
-static uint64_t checksum(const char *bytes, size_t length)
+uint64_t piece_store_checksum(const char *bytes, size_t length)
 {
 	uint64_t sum = UINT64_C(0xcbf29ce484222325);
 	for (size_t b = 0; b < length; b++) sum = (sum ^ (unsigned char)bytes[b]) * UINT64_C(0x100000001b3);
@@ -56,7 +54,8 @@ static uint64_t checksum(const char *bytes, size_t length)
 char *piece_store_line(const json_t *line)
 {
 	char *text = json_dumps(line, JSON_COMPACT), *whole = NULL;
-	if (text && asprintf(&whole, "%016" PRIx64 " %s\n", checksum(text, strlen(text)), text) < 0) whole = NULL;
+	if (text && asprintf(&whole, "%016" PRIx64 " %s\n", piece_store_checksum(text, strlen(text)), text) < 0)
+		whole = NULL;
 	free(text);
 	return whole;
 }
@@ -81,7 +80,7 @@ static json_t *understand(const char *text, size_t length)
 	char sum[CHECKSUM + 1];
 	if (length <= CHECKSUM + 1 || text[CHECKSUM] != ' ') return NULL;
 	text += CHECKSUM + 1, length -= CHECKSUM + 1;
-	snprintf(sum, sizeof sum, "%016" PRIx64, checksum(text, length));
+	snprintf(sum, sizeof sum, "%016" PRIx64, piece_store_checksum(text, length));
 	if (memcmp(sum, text - CHECKSUM - 1, CHECKSUM) != 0) return NULL;
 	return json_loadb(text, length, 0, NULL);
 }
@@ -255,15 +254,22 @@ const char *piece_store_revision(void)
 	return TOUCHSTONE_REVISION;
 }
 
-bool piece_store_add(struct piece_store *store, const char *key, json_t *result, char error[512])
+bool piece_store_take(struct piece_store *store, json_t *line, char error[512])
 {
-	json_t *line = json_pack("{s:s, s:s, s:O}", "key", key, "revision", piece_store_revision(), "result", result);
-	bool good = line ? append(store, line, error) : refuse(store, error, "out of memory, or not UTF-8: '%.200s'", key);
-	if (good) json_object_set(store->lines, key, line);
-	json_decref(line);
+	if (!append(store, line, error)) return false;
+	json_object_set(store->lines, json_string_value(json_object_get(line, "key")), line);
 	time_t now = time(NULL);
 	if (now != store->synced) fdatasync(store->file);
 	store->synced = now;
+	return true;
+}
+
+bool piece_store_add(struct piece_store *store, const char *key, json_t *result, char error[512])
+{
+	json_t *line = json_pack("{s:s, s:s, s:O}", "key", key, "revision", piece_store_revision(), "result", result);
+	if (!line) return refuse(store, error, "out of memory, or not UTF-8: '%.200s'", key);
+	bool good = piece_store_take(store, line, error);
+	json_decref(line);
 	return good;
 }
 

@@ -14,6 +14,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 struct piece_store;
 
@@ -43,6 +44,12 @@ bool piece_store_add(struct piece_store *store, const char *key, json_t *result,
 
 /* Closes it; NULL is fine. False, with a message unless `error` is NULL, when what was added may not have arrived. */
 bool piece_store_close(struct piece_store *store, char *error);
+
+/* FNV-1a of 64 bits (Fowler, Noll and Vo), as the lines have it. */
+uint64_t piece_store_checksum(const char *bytes, size_t length);
+
+/* Adds a line of another store as it is. */
+bool piece_store_take(struct piece_store *store, json_t *line, char error[512]);
 
 /* Whether two results of a piece tell the same numbers: all but their member "made" is equal. */
 bool piece_store_same(const json_t *one, const json_t *other);

@@ -151,7 +151,8 @@ static json_t *explain(const struct scene_file *file, FILE *stream, char error[S
 /* Makes all runs; several at a time, each in its own engine. */
 static void make_runs(const struct run_plan *plan, const struct wish *wish, struct outcome *outcomes)
 {
-	struct simulation_progress progress = {progress_begin(plan->file->name, "events"), 0, (unsigned)wish->runs};
+	struct simulation_progress progress = {.line = progress_begin(plan->file->name, "events"),
+										   .runs = (unsigned)wish->runs};
 	interrupt_watch();
 #pragma omp parallel for schedule(dynamic, 1) num_threads((int)wish->threads)
 	for (uint64_t run = 0; run < wish->runs; run++)

@@ -101,8 +101,11 @@ static void report(void *context, uint64_t more, const struct touchstone_status 
 #pragma omp critical(simulation_progress)
 	{
 		progress->done += (double)more;
-		progress_show(&progress->line, progress->done,
-					  (reporter->besides + expected(reporter, now->time)) * progress->runs);
+		double total = (reporter->besides + expected(reporter, now->time)) * progress->runs;
+		if (progress->tell)
+			progress->tell(progress->context, progress->done, total);
+		else
+			progress_show(&progress->line, progress->done, total);
 	}
 }
 

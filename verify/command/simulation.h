@@ -30,6 +30,9 @@ struct simulation_progress {
 	struct progress line;
 	double done;   /* events */
 	unsigned runs; /* how many are to be made */
+	/* Told in place of the line what is done of how many events; or NULL. */
+	void (*tell)(void *context, double done, double total);
+	void *context;
 };
 
 /* Runs until a limit is reached or the verdict is no longer DONE: true; or until an end is asked for: false. `besides`
