@@ -16,12 +16,14 @@ const struct figure_entry figures[] = {
 	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide"},
 	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts"},
 	{"horizon", "for how many events per particle a run can be trusted, over the bits it carries"},
+	{"time-and-place", "what late times and far places do to impacts, three-body events and the horizon"},
 	{NULL, NULL},
 };
 static struct result *(*const makers[])(const struct figure_setup *, char error[512]) = {
 	figure_impact,
 	figure_collapse,
 	figure_horizon,
+	figure_time_place,
 };
 enum { FIGURES = sizeof makers / sizeof *makers };
 
@@ -47,7 +49,7 @@ static void want(struct arguments *arguments, const char *name)
 	bool found = false;
 	for (int f = 0; f < FIGURES; f++)
 		if (strcmp(name, "all") == 0 || strcmp(name, figures[f].name) == 0) arguments->wanted[f] = found = true;
-	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, fig7, horizon, all", name);
+	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, fig7, horizon, time-and-place, all", name);
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -125,7 +127,7 @@ int command_reproduce(int argc, char **argv)
 		.args_doc = "FIGURE... | all",
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
 			   "Figures: fig3 (separations at impact), fig7 (the bouncing ball), horizon (for how long "
-			   "an arithmetic can be trusted).\n"
+			   "an arithmetic can be trusted), time-and-place (late times, far places).\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
 			   "incomplete.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",
