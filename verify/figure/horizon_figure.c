@@ -68,7 +68,8 @@ static void add_figure(struct result *result, const struct horizon_study *study,
 					.title = "Events per particle that can be trusted, over the bits carried",
 					.caption = "Points: mean over the start states, with bars of one standard deviation from state to "
 							   "state. Lines: fitted to all from 24 bits on, and, dashed, with the slope that tangent "
-							   "vectors predict: the two ways lie on one another. Coarser arithmetics fall below "
+							   "vectors predict, with the exponents that they amount to: the two ways lie on one "
+							   "another. Coarser arithmetics fall below "
 							   "the line, since rounding the start state itself already pushes spheres into one "
 							   "another.",
 					.alternative = "Three straight rising lines of points, the densest gas highest; for each a fitted "
@@ -85,9 +86,9 @@ static void add_figure(struct result *result, const struct horizon_study *study,
 		double slopes[2] = {finding->slope.value, log(2) / finding->by_tangent[0].value};
 		double height = finding->intercept + finding->slope.value * middle;
 		snprintf(label[0], sizeof label[0], "density %.3g", horizon_study_density(study, d));
-		snprintf(label[1], sizeof label[1], "density %.3g, fitted: exponent %.4f", horizon_study_density(study, d),
+		snprintf(label[1], sizeof label[1], "fitted at %.3g: %.4f", horizon_study_density(study, d),
 				 finding->by_slope[0].value);
-		snprintf(label[2], sizeof label[2], "density %.3g, tangent vectors: %.4f", horizon_study_density(study, d),
+		snprintf(label[2], sizeof label[2], "tangents at %.3g: %.4f", horizon_study_density(study, d),
 				 finding->by_tangent[0].value);
 		for (int way = 0; way < 2; way++) {
 			struct figure_series line = figure_series(figure, label[1 + way], SERIES_LINE);
