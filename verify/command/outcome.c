@@ -69,8 +69,10 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	limits.time += outcome->time_begun;
 	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
 	double clock = progress_clock();
-	outcome->interrupted =
-		!simulation_advance(simulation, &limits, outcome->impact ? &observer : NULL, progress, before);
+	const struct touchstone_observer *look = outcome->impact ? &observer : NULL;
+	if (plan->trace) limits.stop = interrupt_flag();
+	outcome->interrupted = plan->trace ? !trace_run(&outcome->trace, simulation->engine, &limits, look)
+									   : !simulation_advance(simulation, &limits, look, progress, before);
 	outcome->wall_seconds = progress_clock() - clock;
 	touchstone_status(simulation->engine, &outcome->status);
 	if (outcome->interrupted)
@@ -120,7 +122,9 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	outcome->virtual_wall_count = outcome->fluxes ? walls : 0;
 	uint64_t before = 0;
 	bool ready = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
-	if (ready) measure(outcome, plan, simulation, progress, before);
+	if (ready && plan->trace) outcome->failed = !trace_begin(&outcome->trace, simulation->engine);
+	if (outcome->failed) snprintf(outcome->error, STORE_ERROR, "out of memory");
+	if (ready && !outcome->failed) measure(outcome, plan, simulation, progress, before);
 	if (plan->xyz) write_particles(simulation, plan->xyz, outcome->error);
 }
 
@@ -144,6 +148,7 @@ void outcome_free(struct outcome *outcome)
 {
 	free(outcome->impact);
 	free(outcome->fluxes);
+	trace_free(&outcome->trace);
 }
 
 uint64_t outcome_peak_memory(void)

@@ -34,6 +34,9 @@
  *	                       fraction_below_interval (95 %), mean_ulp, deviation_ulp, least_ulp, most_ulp (ulp: the step
  *	                       from the contact distance upwards), and bars, counts per representable number, of
  *	                       which first_bar is how many numbers from contact the first stands
+ *	trace                  with --trace: list of events, each with kind, between [particle, particle or wall], time,
+ *wait (since the later of their last events), separation, steps (that in representable numbers from contact),
+ *stabilising, backwards (measure/trace.h), positions and velocities (left by it, of both particles)
  *
  * Numbers that do not exist, such as the rate of no collisions, are null. */
 #ifndef VERIFY_OUTCOME_H
@@ -44,6 +47,7 @@
 #include "command/simulation.h"
 #include "measure/conservation.h"
 #include "measure/impact.h"
+#include "measure/trace.h"
 
 /* What is to be run, once or several times. */
 struct run_plan {
@@ -53,6 +57,7 @@ struct run_plan {
 	const char *const *settings;
 	size_t setting_count;
 	bool conservation, impact; /* measured? */
+	bool trace;                /* event by event? */
 	const char *xyz;           /* file for the final configuration, or NULL */
 };
 
@@ -67,6 +72,7 @@ struct outcome {
 	bool conservation;   /* measured, at begin and end: */
 	struct conservation conserved[2];
 	struct impact *impact; /* NULL when not measured; freed by outcome_free */
+	struct trace trace;    /* all zeros when not wanted; freed by outcome_free */
 	size_t virtual_wall_count;
 	struct touchstone_flux (*fluxes)[2]; /* through each; freed by outcome_free */
 	bool failed;                         /* there was no run */
@@ -85,6 +91,10 @@ const char *outcome_verdict(const struct outcome *outcome);
  * which stays the caller's), owned by the caller. */
 void outcome_print(const struct run_plan *plan, const struct outcome *outcomes, size_t count);
 json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes, size_t count, json_t *explained);
+
+/* The events of a run, one by one, for outcome_print and outcome_json. */
+void outcome_trace_print(const struct trace *trace, int dimensions);
+json_t *outcome_trace_json(const struct trace *trace, int dimensions);
 
 /* The most memory this program has held so far, in bytes. */
 uint64_t outcome_peak_memory(void);

@@ -159,6 +159,7 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 	json_object_set_new(json, "bits", json_integer(arithmetic_bits(file->arithmetic)));
 	json_object_set_new(json, "method", json_string(file->method));
 	set_run(json, outcomes);
+	if (plan->trace) json_object_set_new(json, "trace", outcome_trace_json(&outcomes->trace, file->recipe.dimensions));
 	json_object_set_new(json, "peak_memory_bytes", whole(outcome_peak_memory()));
 	json_object_set_new(json, "machine", provenance());
 	if (explained) json_object_set(json, "explained", explained);

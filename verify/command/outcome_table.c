@@ -141,6 +141,7 @@ void outcome_print(const struct run_plan *plan, const struct outcome *outcomes, 
 		print_one(outcomes);
 	else
 		print_each(outcomes, count);
+	if (plan->trace) outcome_trace_print(&outcomes->trace, file->recipe.dimensions);
 	print_measures(plan, outcomes, count);
 	row("memory", "%.0f bytes per particle, %.1f MB at most in all",
 		(double)outcomes->status.memory / (double)outcomes->particles, (double)outcome_peak_memory() / 1e6);

@@ -15,8 +15,10 @@
 
 static const double default_meetings = 100; /* collisions per particle, where nothing limits a run */
 
+static const uint64_t most_traced = 100000; /* events */
+
 /* Options without a letter; the first ones are scene keys of the same name. */
-enum { ARITHMETIC = 256, METHOD, EVENTS, TIME, SEED, SET, EXPLAIN, JSON, XYZ, MEASURE, RUNS, THREADS, CASES };
+enum { ARITHMETIC = 256, METHOD, EVENTS, TIME, SEED, SET, EXPLAIN, JSON, XYZ, MEASURE, TRACE, RUNS, THREADS, CASES };
 
 static const struct argp_option options[] = {
 	{"arithmetic", ARITHMETIC, "A", 0,
@@ -33,6 +35,11 @@ static const struct argp_option options[] = {
 	{"explain", EXPLAIN, 0, 0, "First say what is modelled and what is left out. With --events 0, say only that", 2},
 	{"measure", MEASURE, "LIST", 0,
 	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum)", 2},
+	{"trace", TRACE, 0, 0,
+	 "Tell every event: particles, time, separation, velocities after, and whether it is stabilising (executed at "
+	 "once, "
+	 "on an overlap) or goes back in time. One run, of 100000 events at most",
+	 2},
 	{"json", JSON, "FILE", 0, "Write what came of it as JSON; - for standard output, instead of the table", 2},
 	{"xyz", XYZ, "FILE", 0, "Write the particles at the end as extended XYZ", 2},
 	{"runs", RUNS, "R", 0, "Run R times, with the seeds S, S+1, ... (1)", 3},
@@ -42,7 +49,7 @@ static const struct argp_option options[] = {
 
 struct wish {
 	const char *scene, *json, *xyz, *folder;
-	bool explain, impact, conservation;
+	bool explain, impact, conservation, trace;
 	uint64_t runs, threads;
 	char **settings; /* KEY=VALUE, each from malloc */
 	size_t setting_count;
@@ -90,6 +97,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case EXPLAIN:
 		wish->explain = true;
+		return 0;
+	case TRACE:
+		wish->trace = true;
 		return 0;
 	case JSON:
 		wish->json = argument;
@@ -195,6 +205,7 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 	}
 	struct touchstone_limits limits = file->limits;
 	if (!limited(file)) limits.events = course_events(default_meetings, file->recipe.particle_count);
+	if (wish->trace && limits.events > most_traced) limits.events = most_traced;
 	const struct run_plan plan = {
 		.path = path,
 		.file = file,
@@ -203,6 +214,7 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		.setting_count = wish->setting_count,
 		.impact = wish->impact,
 		.conservation = wish->conservation,
+		.trace = wish->trace,
 		.xyz = wish->xyz,
 	};
 	json_t *explained = NULL;
@@ -228,6 +240,7 @@ static int run(const struct wish *wish)
 	char error[STORE_ERROR];
 	if (wish->xyz && (wish->runs > 1 || strcmp(wish->xyz, "-") == 0))
 		return refuse("--xyz: accepted: a file, and a single run");
+	if (wish->trace && wish->runs > 1) return refuse("--trace: accepted: a single run");
 	if ((wish->json && !output_possible(wish->json, error)) || (wish->xyz && !output_possible(wish->xyz, error)))
 		return refuse("%s", error);
 	const char *folder = cases_folder(wish->folder);
