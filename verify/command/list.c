@@ -118,35 +118,47 @@ static int is_scene(const struct dirent *entry)
 }
 
 /* A scene that cannot be read is said so; the others are listed all the same. */
-static bool list_case(const char *folder, const char *base)
+static bool list_case(const char *folder, const char *prefix, const char *base)
 {
 	char *path, error[STORE_ERROR];
-	if (asprintf(&path, "%s/%s", folder, base) < 0) return false;
+	if (asprintf(&path, "%s/%s%s", folder, prefix, base) < 0) return false;
 	struct scene_file *file = scene_file_open(path, 0, NULL, error);
 	free(path);
 	if (file)
-		print(file->name, file->title);
+		printf("  %s%-*s  %s\n", prefix, 18 - (int)strlen(prefix), file->name, file->title);
 	else
 		refuse("%s", error);
 	scene_file_close(file);
 	return file;
 }
 
-static bool list_cases(const char *folder)
+/* Those in the folder itself, or in one of its folders, which is then named first. */
+static bool list_cases_in(const char *folder, const char *prefix)
 {
 	struct dirent **entries;
-	int count = scandir(folder, &entries, is_scene, versionsort);
+	char *path;
+	if (asprintf(&path, "%s/%s", folder, prefix) < 0) return false;
+	int count = scandir(path, &entries, is_scene, versionsort), failure = errno;
+	free(path);
+	if (count < 0 && *prefix && failure == ENOENT) return true;
+	errno = failure;
 	if (count < 0) {
 		refuse("--cases: %s: cannot be read: %s; accepted: a folder with scenes", folder, strerror(errno));
 		return false;
 	}
 	bool good = true;
 	for (int e = 0; e < count; e++) {
-		good &= list_case(folder, entries[e]->d_name);
+		good &= list_case(folder, prefix, entries[e]->d_name);
 		free(entries[e]);
 	}
 	free(entries);
 	return good;
+}
+
+/* The scenes of the failure atlas stand apart. */
+static bool list_cases(const char *folder)
+{
+	return list_cases_in(folder, "") & list_cases_in(folder, "stress/");
 }
 
 static const struct kind {

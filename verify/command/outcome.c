@@ -85,6 +85,17 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	if (plan->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
 }
 
+/* The same run once more, watched for what goes wrong. */
+static void judge(struct outcome *outcome, const struct run_plan *plan, const struct simulation *simulation)
+{
+	const struct watch watch = {interrupt_flag(), NULL, NULL};
+	char why[160];
+	outcome->failed = !failure_find(&simulation->scene, plan->file->equilibrate, plan->file->arithmetic,
+									plan->file->method, &plan->limits, &watch, &outcome->failure, why);
+	if (outcome->failed) snprintf(outcome->error, STORE_ERROR, "%s", why);
+	outcome->interrupted = outcome->failure.stopped;
+}
+
 /* Writes the particles as they are now; their species and the box are those of the scene. */
 static bool write_particles(const struct simulation *simulation, const char *path, char error[STORE_ERROR])
 {
@@ -125,6 +136,7 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	if (ready && plan->trace) outcome->failed = !trace_begin(&outcome->trace, simulation->engine);
 	if (outcome->failed) snprintf(outcome->error, STORE_ERROR, "out of memory");
 	if (ready && !outcome->failed) measure(outcome, plan, simulation, progress, before);
+	if (ready && plan->failure && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
 	if (plan->xyz) write_particles(simulation, plan->xyz, outcome->error);
 }
 

@@ -34,9 +34,10 @@
  *	                       fraction_below_interval (95 %), mean_ulp, deviation_ulp, least_ulp, most_ulp (ulp: the step
  *	                       from the contact distance upwards), and bars, counts per representable number, of
  *	                       which first_bar is how many numbers from contact the first stands
- *	trace                  with --trace: list of events, each with kind, between [particle, particle or wall], time,
- *wait (since the later of their last events), separation, steps (that in representable numbers from contact),
- *stabilising, backwards (measure/trace.h), positions and velocities (left by it, of both particles)
+ *	failure                when measured: what (survives, halts, ...: measure/failure.h), event (the first that shows
+ *it, null for none), time, text trace                  with --trace: list of events, each with kind, between [particle,
+ *particle or wall], time, wait (since the later of their last events), separation, steps (that in representable numbers
+ *from contact), stabilising, backwards (measure/trace.h), positions and velocities (left by it, of both particles)
  *
  * Numbers that do not exist, such as the rate of no collisions, are null. */
 #ifndef VERIFY_OUTCOME_H
@@ -46,6 +47,7 @@
 
 #include "command/simulation.h"
 #include "measure/conservation.h"
+#include "measure/failure.h"
 #include "measure/impact.h"
 #include "measure/trace.h"
 
@@ -58,6 +60,7 @@ struct run_plan {
 	size_t setting_count;
 	bool conservation, impact; /* measured? */
 	bool trace;                /* event by event? */
+	bool failure;              /* watched for what goes wrong? */
 	const char *xyz;           /* file for the final configuration, or NULL */
 };
 
@@ -71,8 +74,9 @@ struct outcome {
 	double wall_seconds; /* without equilibration */
 	bool conservation;   /* measured, at begin and end: */
 	struct conservation conserved[2];
-	struct impact *impact; /* NULL when not measured; freed by outcome_free */
-	struct trace trace;    /* all zeros when not wanted; freed by outcome_free */
+	struct impact *impact;  /* NULL when not measured; freed by outcome_free */
+	struct trace trace;     /* all zeros when not wanted; freed by outcome_free */
+	struct failure failure; /* when watched for */
 	size_t virtual_wall_count;
 	struct touchstone_flux (*fluxes)[2]; /* through each; freed by outcome_free */
 	bool failed;                         /* there was no run */

@@ -98,6 +98,13 @@ static json_t *fluxes_json(const struct outcome *outcome)
 	return list;
 }
 
+static json_t *failure_json(const struct failure *failure)
+{
+	return json_pack("{s:s, s:o, s:o, s:s}", "what", failure_word(failure->kind), "event",
+					 failure->event ? whole(failure->event) : json_null(), "time",
+					 failure->event ? number(failure->time) : json_null(), "text", failure->text);
+}
+
 static void set_run(json_t *json, const struct outcome *outcome)
 {
 	const struct touchstone_status *status = &outcome->status;
@@ -159,6 +166,7 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 	json_object_set_new(json, "bits", json_integer(arithmetic_bits(file->arithmetic)));
 	json_object_set_new(json, "method", json_string(file->method));
 	set_run(json, outcomes);
+	if (plan->failure) json_object_set_new(json, "failure", failure_json(&outcomes->failure));
 	if (plan->trace) json_object_set_new(json, "trace", outcome_trace_json(&outcomes->trace, file->recipe.dimensions));
 	json_object_set_new(json, "peak_memory_bytes", whole(outcome_peak_memory()));
 	json_object_set_new(json, "machine", provenance());

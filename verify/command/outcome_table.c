@@ -141,6 +141,14 @@ void outcome_print(const struct run_plan *plan, const struct outcome *outcomes, 
 		print_one(outcomes);
 	else
 		print_each(outcomes, count);
+	for (size_t o = 0; plan->failure && o < count; o++) {
+		const struct failure *failure = &outcomes[o].failure;
+		if (failure->event)
+			row("judged", "%s: first seen at event %llu, t = %.9g: %s", failure_word(failure->kind),
+				(unsigned long long)failure->event, failure->time, failure->text);
+		else
+			row("judged", "%s", failure_word(failure->kind));
+	}
 	if (plan->trace) outcome_trace_print(&outcomes->trace, file->recipe.dimensions);
 	print_measures(plan, outcomes, count);
 	row("memory", "%.0f bytes per particle, %.1f MB at most in all",

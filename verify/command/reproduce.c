@@ -9,16 +9,18 @@
 
 #include "command/interrupt.h"
 #include "command/progress.h"
+#include "command/table_print.h"
 #include "figure/figure.h"
 
 const struct figure_entry figures[] = {
 	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide"},
 	{"three-body", "2014, figs. 4 and 6: three bodies in contact, event by event, by each method"},
 	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts"},
+	{"atlas", "what each method does in each stress scene, and from which precision on it survives"},
 	{NULL, NULL},
 };
-static struct result *(*const makers[])(const struct figure_setup *,
-										char error[512]) = {figure_impact, figure_three_body, figure_collapse};
+static struct result *(*const makers[])(const struct figure_setup *, char error[512]) = {
+	figure_impact, figure_three_body, figure_collapse, figure_atlas};
 enum { FIGURES = sizeof makers / sizeof *makers };
 
 struct arguments {
@@ -43,7 +45,7 @@ static void want(struct arguments *arguments, const char *name)
 	bool found = false;
 	for (int f = 0; f < FIGURES; f++)
 		if (strcmp(name, "all") == 0 || strcmp(name, figures[f].name) == 0) arguments->wanted[f] = found = true;
-	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, three-body, fig7, all", name);
+	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, three-body, fig7, atlas, all", name);
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -103,6 +105,7 @@ static int make(int f, const struct arguments *arguments)
 	double seconds = progress_clock() - began;
 	result_made_by(result, command, seconds, *TOUCHSTONE_REVISION ? TOUCHSTONE_REVISION : NULL);
 	bool written = result_write(result, arguments->results, error);
+	if (written && strcmp(figures[f].name, "atlas") == 0) table_print(result, 0);
 	result_free(result);
 	if (!written) return refuse("%s", error);
 	fprintf(stderr, "%s: %s in %.1f s, stored as %s/%s.json\n", figures[f].name,
@@ -119,7 +122,7 @@ int command_reproduce(int argc, char **argv)
 		.args_doc = "FIGURE... | all",
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
 			   "Figures: fig3 (separations at impact), three-body (figs. 4 and 6, event by event), fig7 (the bouncing "
-			   "ball).\n"
+			   "ball), atlas (where methods fail; printed as a table, too).\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
 			   "incomplete.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",

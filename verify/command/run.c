@@ -34,7 +34,9 @@ static const struct argp_option options[] = {
 	 "Override any key of the scene, such as density=0.9; may be repeated, the last one counts", 1},
 	{"explain", EXPLAIN, 0, 0, "First say what is modelled and what is left out. With --events 0, say only that", 2},
 	{"measure", MEASURE, "LIST", 0,
-	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum)", 2},
+	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum), failure "
+	 "(a second run, watched for what goes wrong first, as in the failure atlas)",
+	 2},
 	{"trace", TRACE, 0, 0,
 	 "Tell every event: particles, time, separation, velocities after, and whether it is stabilising (executed at "
 	 "once, "
@@ -49,7 +51,7 @@ static const struct argp_option options[] = {
 
 struct wish {
 	const char *scene, *json, *xyz, *folder;
-	bool explain, impact, conservation, trace;
+	bool explain, impact, conservation, trace, failure;
 	uint64_t runs, threads;
 	char **settings; /* KEY=VALUE, each from malloc */
 	size_t setting_count;
@@ -65,7 +67,7 @@ static void add_setting(struct wish *wish, const char *key, const char *value)
 
 static void choose_measures(struct wish *wish, char *list)
 {
-	char *const names[] = {"impact", "conservation", NULL};
+	char *const names[] = {"impact", "conservation", "failure", NULL};
 	while (*list) {
 		char *word = list, *value;
 		switch (getsubopt(&list, names, &value)) {
@@ -75,8 +77,11 @@ static void choose_measures(struct wish *wish, char *list)
 		case 1:
 			wish->conservation = true;
 			break;
+		case 2:
+			wish->failure = true;
+			break;
 		default:
-			refuse_option("measure", word, "impact, conservation, or both with a comma");
+			refuse_option("measure", word, "impact, conservation, failure, or several with commas");
 		}
 	}
 }
@@ -175,7 +180,8 @@ static int tell(const struct run_plan *plan, const struct wish *wish, const stru
 		if (outcomes[run].failed) return refuse("%s", outcomes[run].error);
 		enum touchstone_verdict verdict = outcomes[run].status.verdict;
 		interrupted |= outcomes[run].interrupted;
-		broken |= verdict == TOUCHSTONE_HALTED || verdict == TOUCHSTONE_DIVERGED;
+		broken |= verdict == TOUCHSTONE_HALTED || verdict == TOUCHSTONE_DIVERGED ||
+				  (plan->failure && !failure_survived(&outcomes[run].failure));
 	}
 	if (!limited(plan->file))
 		fprintf(stderr, "touchstone: neither events nor time given; ran %llu events, so that each particle meets %g\n",
@@ -215,6 +221,7 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		.impact = wish->impact,
 		.conservation = wish->conservation,
 		.trace = wish->trace,
+		.failure = wish->failure,
 		.xyz = wish->xyz,
 	};
 	json_t *explained = NULL;
@@ -266,15 +273,15 @@ int command_run(int argc, char **argv)
 		.options = options,
 		.parser = parse,
 		.args_doc = "SCENE",
-		.doc =
-			"Runs a scene and tells what became of it: how many events, its verdict, how fast it was, and a digest "
-			"that is the same for every compiler, optimisation and number of threads. SCENE is a file, or a case by "
-			"its name.\v"
-			"Verdicts: done, a limit was reached or no event is left; collapsed, events go on but time does not; "
-			"halted, the method has no answer; diverged, a number is no longer finite; interrupted, by Ctrl-C.\n\n"
-			"Exit status: 0 done or collapsed; 1 halted or diverged; 2 bad input; 130 interrupted, and what was done "
-			"by then is told all the same.\n\n"
-			"Example: touchstone run hard-spheres --set density=0.9 --events 1e6 --measure impact --json -",
+		.doc = "Runs a scene and tells what became of it: how many events, its verdict, how fast it was, and a digest "
+			   "that is the same for every compiler, optimisation and number of threads. SCENE is a file, or a case by "
+			   "its name.\v"
+			   "Verdicts: done, a limit was reached or no event is left; collapsed, events go on but time does not; "
+			   "halted, the method has no answer; diverged, a number is no longer finite; interrupted, by Ctrl-C.\n\n"
+			   "Exit status: 0 done or collapsed; 1 halted or diverged, or something measured as a failure; 2 bad "
+			   "input; 130 interrupted, and what was done "
+			   "by then is told all the same.\n\n"
+			   "Example: touchstone run hard-spheres --set density=0.9 --events 1e6 --measure impact --json -",
 	};
 	struct wish wish = {.runs = 1, .threads = 1, .settings = calloc((size_t)argc, sizeof(char *))};
 	if (!wish.settings) return refuse("out of memory");

@@ -19,5 +19,6 @@ struct figure_setup {
 struct result *figure_impact(const struct figure_setup *setup, char error[512]);     /* 2014, fig. 3 */
 struct result *figure_collapse(const struct figure_setup *setup, char error[512]);   /* 2014, section 5 and fig. 7 */
 struct result *figure_three_body(const struct figure_setup *setup, char error[512]); /* 2014, figs. 4 and 6 */
+struct result *figure_atlas(const struct figure_setup *setup, char error[512]);      /* where methods fail */
 
 #endif
