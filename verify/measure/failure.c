@@ -221,6 +221,8 @@ static uint64_t run_checked(struct run *run, uint64_t stride, const struct touch
 		good = failure->events = status.events;
 		run->clock = status.time;
 		failure->stopped = watch && watch->stop && *watch->stop;
+		if (!goes_on && !failure->stopped && good < limits->events && limits->time == INFINITY)
+			fail(run, failure, FAILURE_OVER, "after %llu events, at t = %.9g", (unsigned long long)good, status.time);
 		if (!goes_on || failure->stopped) return good;
 	}
 }
@@ -260,7 +262,7 @@ bool failure_find(const struct touchstone_scene *scene, double collisions, const
 		good = run_checked(&run, stride, &until, watch, failure);
 	}
 	run_end(&run);
-	if (!made || failure->kind <= FAILURE_REST) {
+	if (!made || failure_survived(failure)) {
 		if (failure->kind == FAILURE_REST) failure->event = 0;
 		return made;
 	}
@@ -272,7 +274,8 @@ bool failure_find(const struct touchstone_scene *scene, double collisions, const
 
 const char *failure_word(enum failure_kind kind)
 {
-	static const char *const words[] = {"survives",  "comes to rest",  "drifts", "gains energy", "passes through",
-										"entangles", "runs backwards", "loops",  "halts",        "not finite"};
+	static const char *const words[] = {"survives",     "comes to rest",  "no event left", "drifts",
+										"gains energy", "passes through", "entangles",     "runs backwards",
+										"loops",        "halts",          "not finite"};
 	return words[kind];
 }

@@ -22,6 +22,7 @@
 enum failure_kind {
 	FAILURE_NONE,
 	FAILURE_REST, /* none: the run came to rest, as it should */
+	FAILURE_OVER, /* none, but no event is left: in a gas, particles that no longer meet */
 	FAILURE_DRIFTS,
 	FAILURE_GAINS_ENERGY,
 	FAILURE_PASSES,
@@ -34,7 +35,7 @@ enum failure_kind {
 
 struct failure {
 	enum failure_kind kind;
-	uint64_t event;  /* the first that shows it, from 1; 0 where nothing is wrong */
+	uint64_t event;  /* the first that shows it, from 1, or the last before none is left; 0 where nothing is wrong */
 	double time;     /* of it */
 	uint64_t events; /* executed when it was judged, or in all */
 	bool stopped;    /* by the watch: nothing wrong until then */
@@ -54,7 +55,7 @@ const char *failure_word(enum failure_kind kind);
 
 static inline bool failure_survived(const struct failure *failure)
 {
-	return failure->kind <= FAILURE_REST;
+	return failure->kind <= FAILURE_OVER;
 }
 
 #endif
