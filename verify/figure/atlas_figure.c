@@ -253,7 +253,7 @@ static struct result *tell(const struct atlas *atlas)
 
 struct result *figure_atlas(const struct figure_setup *setup, char error[512])
 {
-	struct atlas atlas = {.setup = setup, .limits = {setup->full ? 1000000 : 1000, INFINITY, NULL}};
+	struct atlas atlas = {.setup = setup, .limits = {setup->full ? 1000000 : 2000, INFINITY, NULL}};
 	const char *name;
 	for (size_t n = 0; (name = touchstone_method_name(n)) && n < MOST_METHODS; n++)
 		atlas.method[atlas.methods++] = name;
