@@ -7,21 +7,25 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "campaign/campaign.h"
 #include "command/interrupt.h"
 #include "command/progress.h"
 #include "command/table_print.h"
 #include "figure/figure.h"
 
 const struct figure_entry figures[] = {
-	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide"},
-	{"three-body", "2014, figs. 4 and 6: three bodies in contact, event by event, by each method"},
-	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts"},
-	{"atlas", "what each method does in each stress scene, and from which precision on it survives"},
-	{NULL, NULL},
+	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide", figure_impact},
+	{"fig4", "2014, figs. 4 and 6: three bodies in contact, event by event, by each method", figure_stepping},
+	{"fig5", "2014, fig. 5: how often three bodies meet, over restitution and density", figure_three_body},
+	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts", figure_collapse},
+	{"ladder", "2014, fig. 5 at 53 bits: how rates of what goes wrong fall with the bits carried", figure_ladder},
+	{"horizon", "for how many events per particle a run can be trusted, over the bits it carries", figure_horizon},
+	{"time-and-place", "what late times and far places do to impacts, three-body events and the horizon",
+	 figure_time_place},
+	{"atlas", "what each method does in each stress scene, and from which precision on it survives", figure_atlas},
+	{0},
 };
-static struct result *(*const makers[])(const struct figure_setup *, char error[512]) = {
-	figure_impact, figure_three_body, figure_collapse, figure_atlas};
-enum { FIGURES = sizeof makers / sizeof *makers };
+enum { FIGURES = sizeof figures / sizeof *figures - 1 };
 
 struct arguments {
 	bool wanted[FIGURES];
@@ -45,7 +49,7 @@ static void want(struct arguments *arguments, const char *name)
 	bool found = false;
 	for (int f = 0; f < FIGURES; f++)
 		if (strcmp(name, "all") == 0 || strcmp(name, figures[f].name) == 0) arguments->wanted[f] = found = true;
-	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, three-body, fig7, atlas, all", name);
+	if (!found) refuse_usage("no figure '%.40s'; accepted: all, or one that `touchstone list figures` has", name);
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -92,12 +96,13 @@ static int make(int f, const struct arguments *arguments)
 		.full = arguments->full,
 		.seed = arguments->seed,
 		.threads = arguments->threads,
+		.folder = arguments->results,
 		.stop = interrupt_flag(),
 		.progress = show,
 		.context = &progress,
 	};
 	double began = progress_clock();
-	struct result *result = makers[f](&setup, error);
+	struct result *result = figures[f].make(&setup, error);
 	progress_end(&progress);
 	if (!result) return refuse("%s: %s", figures[f].name, error);
 	snprintf(command, sizeof command, "touchstone reproduce %s %s --seed %" PRIu64, figures[f].name,
@@ -105,9 +110,10 @@ static int make(int f, const struct arguments *arguments)
 	double seconds = progress_clock() - began;
 	result_made_by(result, command, seconds, *TOUCHSTONE_REVISION ? TOUCHSTONE_REVISION : NULL);
 	bool written = result_write(result, arguments->results, error);
-	if (written && strcmp(figures[f].name, "atlas") == 0) table_print(result, 0);
+	if (written && figures[f].make == figure_atlas) table_print(result, 0); /* it is one table */
 	result_free(result);
 	if (!written) return refuse("%s", error);
+	if (!interrupted()) campaign_forget(figures[f].name, arguments->results);
 	fprintf(stderr, "%s: %s in %.1f s, stored as %s/%s.json\n", figures[f].name,
 			interrupted() ? "interrupted" : "measured", seconds, arguments->results, figures[f].name);
 	return STATUS_WELL;
@@ -121,8 +127,7 @@ int command_reproduce(int argc, char **argv)
 		.parser = parse,
 		.args_doc = "FIGURE... | all",
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
-			   "Figures: fig3 (separations at impact), three-body (figs. 4 and 6, event by event), fig7 (the bouncing "
-			   "ball), atlas (where methods fail; printed as a table, too).\n"
+			   "Figures: all, or those that `touchstone list figures` has.\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
 			   "incomplete.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",

@@ -139,21 +139,21 @@ static unsigned level_of(enum failure_kind kind)
 static void write_bits(const struct cell *cell, char text[40])
 {
 	if (cell->rung == RUNGS)
-		snprintf(text, 40, "at no precision");
+		snprintf(text, 40, "never");
 	else
-		snprintf(text, 40, "from %d bits%s", ladder[cell->rung], cell->rung ? "" : " or fewer");
+		snprintf(text, 40, "%s%d bits", cell->rung ? "" : "≤ ", ladder[cell->rung]);
 }
 
 static void add_glance(struct result *result, const struct atlas *atlas)
 {
 	const char *columns[SCENES + 2] = {"method"};
 	for (int s = 0; s < SCENES; s++) columns[s + 1] = names[s];
-	struct result_table table = result_table(
-		result, "What happens",
-		"In binary64, with the first event that shows it; below that the number of significand bits from "
-		"which on the method survives the scene (4 to 25 one by one, then 28, 32, 40, 46, 53, 64, 113). To "
-		"come to rest is right where the scene loses energy.",
-		columns);
+	struct result_table table =
+		result_table(result, "What happens",
+					 "In binary64, with the first event that shows it; below that the least number of significand "
+					 "bits with which the method survives the scene (4 to 25 one by one, then 28, 32, 40, 46, 53, 64, "
+					 "113). To come to rest is right where the scene loses energy.",
+					 columns);
 	for (int m = 0; m < atlas->methods; m++) {
 		table_row(table);
 		table_text(table, "%s", atlas->method[m]);
@@ -173,28 +173,28 @@ static void add_glance(struct result *result, const struct atlas *atlas)
 
 static void add_cells(struct result *result, const struct atlas *atlas)
 {
-	static const char *const columns[] = {"scene",      "method",   "in binary64",      "first wrong event",
-										  "what shows", "survives", "one step coarser", "to see it",
-										  NULL};
-	struct result_table table = result_table(result, "Every cell", NULL, columns);
+	static const char *const columns[] = {"scene and method", "in binary64", "survives from", "to see it", NULL};
+	struct result_table table =
+		result_table(result, "Every cell", "In brackets what happens one step of precision below.", columns);
 	for (int s = 0; s < SCENES; s++)
 		for (int m = 0; m < atlas->methods; m++) {
 			const struct cell *cell = &atlas->cell[m][s];
+			const struct failure *failure = &cell->failure;
 			char bits[40];
 			if (!cell->done) continue;
 			write_bits(cell, bits);
 			table_row(table);
-			table_text(table, "%s", names[s]);
-			table_text(table, "%s", atlas->method[m]);
-			table_text(table, "%s", failure_word(cell->failure.kind));
-			if (cell->failure.event)
-				table_count(table, cell->failure.event);
+			table_text(table, "%s, %s", names[s], atlas->method[m]);
+			if (failure->event)
+				table_text(table, "%s at event %" PRIu64 ": %s", failure_word(failure->kind), failure->event,
+						   failure->text);
 			else
-				table_number(table, NAN);
-			table_text(table, "%s", cell->failure.event ? cell->failure.text : "-");
-			table_text(table, "%s", bits);
-			table_text(table, "%s", cell->rung > 0 ? failure_word(cell->below.kind) : "-");
-			table_text(table, "touchstone run stress/%s --method %s --events %" PRIu64 " --measure failure", names[s],
+				table_text(table, "%s", failure_word(failure->kind));
+			if (cell->rung > 0)
+				table_text(table, "%s (%s)", bits, failure_word(cell->below.kind));
+			else
+				table_text(table, "%s", bits);
+			table_text(table, "run stress/%s --method %s --events %" PRIu64 " --measure failure", names[s],
 					   atlas->method[m], atlas->limits.events);
 		}
 }

@@ -1,4 +1,4 @@
-/* The events of a run, one by one: as a table for people and as JSON. */
+/* The events of a run one by one, and what goes wrong in it: for people and as JSON. */
 #include "command/outcome.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static void print_velocity(const struct trace_body *body, int dimensions)
 	putchar(')');
 }
 
-void outcome_trace_print(const struct trace *trace, int dimensions)
+static void print_trace(const struct trace *trace, int dimensions)
 {
 	printf("\n%6s  %-8s  %9s  %24s  %12s  %24s  %11s  %-11s  %s\n", "event", "kind", "between", "time", "wait",
 		   "separation", "ulp over it", "", "velocities after");
@@ -46,7 +46,7 @@ static json_t *vector(const double *values, int dimensions)
 	return list;
 }
 
-json_t *outcome_trace_json(const struct trace *trace, int dimensions)
+static json_t *trace_json(const struct trace *trace, int dimensions)
 {
 	json_t *list = json_array();
 	for (size_t e = 0; e < trace->count; e++) {
@@ -65,4 +65,29 @@ json_t *outcome_trace_json(const struct trace *trace, int dimensions)
 											  positions, "velocities", velocities));
 	}
 	return list;
+}
+
+void outcome_print_events(const struct run_plan *plan, const struct outcome *outcomes, size_t count)
+{
+	for (size_t o = 0; plan->failure && o < count; o++) {
+		const struct failure *failure = &outcomes[o].failure;
+		if (failure->event)
+			outcome_row("judged", "%s: event %llu, t = %.9g: %s", failure_word(failure->kind),
+						(unsigned long long)failure->event, failure->time, failure->text);
+		else
+			outcome_row("judged", "%s", failure_word(failure->kind));
+	}
+	if (plan->trace) print_trace(&outcomes->trace, plan->file->recipe.dimensions);
+}
+
+void outcome_set_events(json_t *run, const struct run_plan *plan, const struct outcome *outcome)
+{
+	const struct failure *failure = &outcome->failure;
+	if (plan->trace) json_object_set_new(run, "trace", trace_json(&outcome->trace, plan->file->recipe.dimensions));
+	if (!plan->failure) return;
+	json_t *event = failure->event ? json_integer((json_int_t)failure->event) : json_null();
+	json_t *time = failure->event && isfinite(failure->time) ? json_real(failure->time) : json_null();
+	json_object_set_new(run, "failure",
+						json_pack("{s:s, s:o, s:o, s:s}", "what", failure_word(failure->kind), "event", event, "time",
+								  time, "text", failure->text));
 }
