@@ -126,6 +126,9 @@ $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
 
+# The planted faults are about the answers of the program that loads them.
+$(BUILD)/verify/test/fuzz_test: LDFLAGS += -rdynamic
+
 $(TESTS): | $(PLUGINS) $(BUILD)/bench
 
 # As a stranger would compile them: against lib/touchstone.h alone.

@@ -152,7 +152,7 @@ static void print_hunt(const struct fuzz_hunt *hunt)
 		char words[320];
 		fuzz_words(subject, &finding->shrunk, words);
 		printf("  %s%s\n    met %" PRIu64 " times, first after %.2f s; %u significant bits, shrunk from %u:\n",
-			   finding->shrunk.promised ? "" : "(not claimed otherwise) ", words, finding->met, finding->seconds,
+			   finding->shrunk.promised ? "" : "(beyond what it claims) ", words, finding->met, finding->seconds,
 			   fuzz_case_bits(subject->shape, &finding->shrunk), fuzz_case_bits(subject->shape, &finding->first));
 		for (int q = 0; q < finding->shrunk.questions; q++) {
 			char *text = question_of(&finding->shrunk, subject->shape, q);
@@ -254,7 +254,7 @@ static int chase_all(const struct wish *wish, const struct party *party, json_t 
 static int run(const struct wish *wish)
 {
 	char error[REPORT_ERROR];
-	const struct plugin_patience patience = {wish->patience, 40, 3, interrupt_flag()};
+	const struct plugin_patience patience = {wish->patience, 40, 3, true, interrupt_flag()};
 	if (wish->json && !output_possible(wish->json, error)) return refuse("%s", error);
 	if (!aside_folder(wish->corpus, error)) return refuse("%s", error);
 	interrupt_watch();

@@ -224,7 +224,8 @@ static int ask(const struct wish *wish, const struct party *party, const struct 
 static int run(struct wish *wish, const char *command)
 {
 	char error[REPORT_ERROR];
-	const struct plugin_patience patience = {wish->patience, 100, 3, interrupt_flag()};
+	const struct plugin_patience patience = {
+		.seconds = wish->patience, .crashes = 100, .loops = 3, .stop = interrupt_flag()};
 	const char *const outputs[] = {wish->csv, wish->answers};
 	for (int o = 0; o < 2; o++)
 		if (outputs[o] && !output_possible(outputs[o], error)) return refuse("%s", error);

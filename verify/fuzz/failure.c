@@ -97,11 +97,10 @@ bool fuzz_judge(const struct fuzz_subject *subject, struct oracle *oracle, const
 	struct oracle_time time = oracle_solve(oracle, &query);
 	double ulp = 0;
 	enum finder_class class = FINDER_FOUND;
-	enum fuzz_failure failure = FUZZ_NONE;
-	if (fault)
-		failure = fault->endless ? FUZZ_HANG : FUZZ_CRASH;
-	else if (subject->bound < INFINITY || !(answer > 0 && answer < INFINITY && time.event != ORACLE_NEVER))
-		failure = failure_of(subject, class = finder_classify(oracle, &time, answer, &ulp), ulp);
+	bool surely_right = subject->bound == INFINITY && answer > 0 && answer < INFINITY && time.event != ORACLE_NEVER;
+	if (!fault && !surely_right) class = finder_classify(oracle, &time, answer, &ulp);
+	enum fuzz_failure failure = failure_of(subject, class, ulp);
+	if (fault) failure = fault->endless ? FUZZ_HANG : FUZZ_CRASH;
 	if (failure == FUZZ_NONE) return false;
 	double exact = oracle_round(oracle, &time, MPFR_RNDN);
 	*failed = (struct fuzz_case){

@@ -11,12 +11,10 @@
 #include "fuzz/shrink.h"
 
 enum {
-	SLICE = 4096,      /* questions made, asked and judged by one thread; even */
-	SLICES = 16,       /* of a round */
-	TRIES = 40000,     /* to shrink a finding; */
-	CRASH_TRIES = 300, /* where each costs a process */
-	HANG_TRIES = 60,   /* where each costs all the patience there is */
-	FRESH = 4,         /* one slice in so many is a family's own questions */
+	SLICE = 4096,  /* questions made, asked and judged by one thread; even */
+	SLICES = 16,   /* of a round */
+	TRIES = 40000, /* to shrink a finding; */
+	FRESH = 4,     /* one slice in so many is a family's own questions */
 };
 
 typedef double question[TOUCHSTONE_MOST_NUMBERS];
@@ -27,8 +25,8 @@ struct slice {
 	double answer[SLICE];
 	struct plugin_fault fault[SLICE];
 	bool faulty[SLICE];
-	size_t count; /* questions that have been dealt with */
-	bool ordered; /* questions 2k and 2k + 1 are neighbours, of whose times the order counts */
+	size_t count;   /* questions that have been dealt with */
+	size_t ordered; /* 2: of questions 2k and 2k + 1 the order of times counts; 1: of all that follow each other */
 	struct fuzz_finding *finding;
 	size_t findings, room;
 	bool failed;
@@ -74,7 +72,7 @@ static bool make_slice(const struct fuzz_hunt *hunt, struct slice *slice, uint64
 	uint64_t turn = index / FRESH;
 	const struct family *family = list[turn % families];
 	uint64_t first = turn / families * SLICE;
-	slice->ordered = index % FRESH == 1;
+	slice->ordered = index % FRESH == 1 ? 2 : 0;
 	if (!family_fill(family, shape, hunt->seed, first, SLICE, slice->number, error)) return false;
 	struct random_state random = random_seed(hunt->seed ^ (index + 1) * UINT64_C(0x9e3779b97f4a7c15));
 	for (size_t k = 0; index % FRESH != 0 && k < SLICE; k++) {
@@ -123,12 +121,13 @@ static struct fuzz_finding *like(struct fuzz_finding *findings, size_t count, co
 	return NULL;
 }
 
-/* A failure of this slice: counted, and kept if it is the first of its kind. */
-static void keep(struct slice *slice, const struct fuzz_case *failed, uint64_t question)
+/* A failure of this slice: counted, and kept if it is the first of its kind, or the simplest. */
+static void keep(enum touchstone_shape shape, struct slice *slice, const struct fuzz_case *failed, uint64_t question)
 {
 	struct fuzz_finding *known = like(slice->finding, slice->findings, failed);
 	if (known) {
 		known->met++;
+		if (fuzz_case_bits(shape, failed) < fuzz_case_bits(shape, &known->shrunk)) known->shrunk = *failed;
 		return;
 	}
 	if (slice->findings == slice->room) {
@@ -151,43 +150,59 @@ static void judge_slice(const struct fuzz_hunt *hunt, struct oracle *oracle, str
 	struct fuzz_case failed;
 	slice->findings = 0;
 	for (size_t k = 0; k < slice->count; k++) {
-		bool earlier = k % 2 == 1 && wrong;
+		bool earlier = k > 0 && wrong;
 		wrong = fuzz_judge(&hunt->subject, oracle, slice->number[k], slice->answer[k],
 						   slice->faulty[k] ? &slice->fault[k] : NULL, &failed);
 		if (wrong)
-			keep(slice, &failed, k);
-		else if (slice->ordered && k % 2 == 1 && !earlier &&
+			keep(hunt->subject.shape, slice, &failed, k);
+		else if (slice->ordered && k > 0 && (k + 1) % slice->ordered == 0 && !earlier &&
 				 fuzz_judge_order(&hunt->subject, oracle, (void *)(slice->number + k - 1), slice->answer + k - 1,
 								  &failed))
-			keep(slice, &failed, k);
+			keep(hunt->subject.shape, slice, &failed, k);
 	}
 }
 
-static unsigned tries_for(enum fuzz_failure failure)
+/* Makes a case as simple as it gets, and one more to begin with. */
+static bool shrink(struct fuzz_hunt *hunt, struct oracle *oracle, struct fuzz_case *failed)
 {
-	return failure == FUZZ_HANG ? HANG_TRIES : failure == FUZZ_CRASH ? CRASH_TRIES : TRIES;
+	fuzz_shrink(&hunt->subject, oracle, failed, TRIES, hunt->stop);
+	bool good = true;
+	for (int q = 0; q < failed->questions; q++) good = good && fuzz_feed(hunt, failed->number[q]);
+	return good;
 }
 
-/* Joins what a slice has found to the whole; shrinks what is new. */
+static struct fuzz_finding *add_finding(struct fuzz_hunt *hunt)
+{
+	struct fuzz_finding *larger = reallocarray(hunt->finding, hunt->findings + 1, sizeof *larger);
+	if (!larger) return NULL;
+	hunt->finding = larger;
+	return &larger[hunt->findings++];
+}
+
+/* Joins what a slice has found to the whole, and shrinks what is new, or simpler than what was known. */
 static bool take_in(struct fuzz_hunt *hunt, struct oracle *oracle, const struct slice *slice, double began)
 {
+	enum touchstone_shape shape = hunt->subject.shape;
 	for (size_t f = 0; f < slice->findings; f++) {
-		struct fuzz_finding *known = like(hunt->finding, hunt->findings, &slice->finding[f].first);
-		if (known) {
-			known->met += slice->finding[f].met;
+		const struct fuzz_finding *found = &slice->finding[f];
+		struct fuzz_finding *known = like(hunt->finding, hunt->findings, &found->first);
+		struct fuzz_case simple = found->shrunk;
+		if (known && fuzz_case_bits(shape, &simple) >= fuzz_case_bits(shape, &known->shrunk)) {
+			known->met += found->met;
 			continue;
 		}
-		struct fuzz_finding *larger = reallocarray(hunt->finding, hunt->findings + 1, sizeof *larger);
-		if (!larger) return false;
-		hunt->finding = larger;
-		struct fuzz_finding *new = &larger[hunt->findings++];
-		*new = slice->finding[f];
-		new->question += hunt->asked;
-		new->seconds = now() - began;
-		fuzz_shrink(&hunt->subject, oracle, &new->shrunk, tries_for(new->first.failure), hunt->stop);
-		for (int q = 0; q < new->shrunk.questions; q++)
-			if (!fuzz_feed(hunt, new->shrunk.number[q])) return false;
-		if (hunt->tell) hunt->tell(hunt->context, new);
+		double met = now() - began;
+		if (!shrink(hunt, oracle, &simple)) return false;
+		if (known) {
+			known->met += found->met;
+		} else {
+			if (!(known = add_finding(hunt))) return false;
+			*known = *found;
+			known->question += hunt->asked;
+			known->seconds = met;
+		}
+		known->shrunk = simple;
+		if (hunt->tell) hunt->tell(hunt->context, known);
 	}
 	hunt->asked += slice->count;
 	return !slice->failed;
@@ -216,7 +231,8 @@ static bool work(struct fuzz_hunt *hunt, struct crew *crew, const uint64_t *inde
 		struct slice *slice = &crew->slice[s];
 		char why[160];
 		if (index) slice->count = SLICE;
-		if (stopped(hunt)) slice->count = 0;
+		bool enough = hunt->subject.finder->plugin && s > 0 && crew->slice[s - 1].count < SLICE; /* one at a time */
+		if (stopped(hunt) || enough) slice->count = 0;
 		bool done = (!index || make_slice(hunt, slice, *index + s, why)) && answer_slice(hunt, slice, why);
 		if (done) judge_slice(hunt, crew->oracle[omp_get_thread_num()], slice);
 #pragma omp critical(fuzz_error)
@@ -240,7 +256,7 @@ static bool ask_corpus(struct fuzz_hunt *hunt, struct crew *crew, double began, 
 	for (size_t from = 0; good && from < count && !stopped(hunt); from += SLICE) {
 		struct slice *slice = crew->slice;
 		slice->count = count - from < SLICE ? count - from : SLICE;
-		slice->ordered = false;
+		slice->ordered = 1;
 		memcpy(slice->number, hunt->corpus + from, slice->count * sizeof *slice->number);
 		good = work(hunt, crew, NULL, 1, began, error);
 	}

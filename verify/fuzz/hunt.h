@@ -8,10 +8,10 @@
 
 /* A failure, as it was met and as it was shrunk. */
 struct fuzz_finding {
-	struct fuzz_case first, shrunk;
-	uint64_t met;      /* number of questions that fail alike, this one included */
-	uint64_t question; /* how many were asked before it */
-	double seconds;    /* into the hunt */
+	struct fuzz_case first, shrunk; /* shrunk: the simplest so far */
+	uint64_t met;                   /* number of questions that fail alike, this one included */
+	uint64_t question;              /* how many were asked before it */
+	double seconds;                 /* into the hunt */
 };
 
 struct fuzz_hunt {
@@ -28,7 +28,7 @@ struct fuzz_hunt {
 
 	uint64_t rounds; /* done so far, by earlier hunts too: begin with 0, or where one left off */
 
-	/* told of each new finding, in order; may be NULL */
+	/* told of each new finding, and again when it has become simpler; may be NULL */
 	void (*tell)(void *context, const struct fuzz_finding *finding);
 	void (*progress)(void *context, double part); /* may be NULL */
 	void *context;

@@ -6,7 +6,11 @@
 
 #include "store/query_file.h"
 
-enum { DOUBLE_BITS = 53 };
+enum {
+	DOUBLE_BITS = 53,
+	MOST_CRASHES = 300, /* each costs a process */
+	MOST_HANGS = 40,    /* each costs all the patience there is */
+};
 
 unsigned fuzz_bits(double number)
 {
@@ -31,6 +35,7 @@ struct shrinking {
 	struct fuzz_case best;
 	size_t numbers, all; /* of a question, of the case */
 	unsigned tried, most;
+	unsigned crashes, hangs; /* tries that ended so: dear ones */
 	const volatile int *stop;
 };
 
@@ -68,7 +73,8 @@ static bool lighter(const struct burden *one, const struct burden *other)
 
 static bool at_end(const struct shrinking *shrinking)
 {
-	return shrinking->tried >= shrinking->most || (shrinking->stop && *shrinking->stop);
+	return shrinking->tried >= shrinking->most || shrinking->crashes >= MOST_CRASHES ||
+		   shrinking->hangs >= MOST_HANGS || (shrinking->stop && *shrinking->stop);
 }
 
 /* Takes the candidate if it is simpler and fails alike. */
@@ -77,8 +83,10 @@ static bool offer(struct shrinking *shrinking, struct fuzz_case *candidate)
 	struct burden now = burden_of(shrinking, &shrinking->best), then = burden_of(shrinking, candidate);
 	if (!lighter(&then, &now) || at_end(shrinking)) return false;
 	shrinking->tried++;
-	if (!fuzz_try(shrinking->subject, shrinking->oracle, candidate) || !fuzz_same(candidate, &shrinking->best))
-		return false;
+	bool fails = fuzz_try(shrinking->subject, shrinking->oracle, candidate);
+	shrinking->crashes += fails && candidate->failure == FUZZ_CRASH;
+	shrinking->hangs += fails && candidate->failure == FUZZ_HANG;
+	if (!fails || !fuzz_same(candidate, &shrinking->best)) return false;
 	shrinking->best = *candidate;
 	return true;
 }
@@ -130,6 +138,12 @@ static bool simplify_pair(struct shrinking *shrinking, size_t m, size_t n)
 	double one = *number_of(shrinking, &shrinking->best, m), other = *number_of(shrinking, &shrinking->best, n);
 	if (one == 0 || other == 0) return false;
 	if (replace(shrinking, n, one) || replace(shrinking, n, -one)) return true;
+	for (int exponent = -64; exponent <= 64; exponent += 8) { /* a far smaller or larger one in place of both */
+		struct fuzz_case candidate = shrinking->best;
+		*number_of(shrinking, &candidate, m) = 0;
+		*number_of(shrinking, &candidate, n) = copysign(ldexp(1, exponent), other);
+		if (offer(shrinking, &candidate)) return true;
+	}
 	unsigned most = fuzz_bits(one) > fuzz_bits(other) ? fuzz_bits(one) : fuzz_bits(other);
 	for (unsigned bits = 1; bits < most; bits++)
 		for (int way = 0; way < 4; way++) {
@@ -193,7 +207,12 @@ static bool simplify(struct shrinking *shrinking)
 unsigned fuzz_shrink(const struct fuzz_subject *subject, struct oracle *oracle, struct fuzz_case *failed,
 					 unsigned tries, const volatile int *stop)
 {
-	struct shrinking shrinking = {subject, oracle, *failed, shape_numbers(subject->shape), 0, 0, tries, stop};
+	struct shrinking shrinking = {.subject = subject,
+								  .oracle = oracle,
+								  .best = *failed,
+								  .numbers = shape_numbers(subject->shape),
+								  .most = tries,
+								  .stop = stop};
 	shrinking.all = shrinking.numbers * (size_t)failed->questions;
 	while (!at_end(&shrinking) && simplify(&shrinking)) continue;
 	*failed = shrinking.best;
