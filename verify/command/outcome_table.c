@@ -120,11 +120,11 @@ static void print_three_body(const struct three_body *three_body)
 	struct interval events, encounters;
 	double rate = three_body_rate(three_body, &events);
 	double encounter_rate = three_body_encounter_rate(three_body, &encounters);
-	row("three-body", "%llu of %llu contacts: %.3g per contact (95 %%: %.3g to %.3g)",
-		(unsigned long long)three_body->events, (unsigned long long)three_body->contacts, rate, events.low,
-		events.high);
-	row("", "in %llu encounters: %.3g per contact (95 %%: %.3g to %.3g)", (unsigned long long)three_body->encounters,
-		encounter_rate, encounters.low, encounters.high);
+	outcome_row("three-body", "%llu of %llu contacts: %.3g per contact (95 %%: %.3g to %.3g)",
+				(unsigned long long)three_body->events, (unsigned long long)three_body->contacts, rate, events.low,
+				events.high);
+	outcome_row("", "in %llu encounters: %.3g per contact (95 %%: %.3g to %.3g)",
+				(unsigned long long)three_body->encounters, encounter_rate, encounters.low, encounters.high);
 }
 
 static void print_measures(const struct run_plan *plan, const struct outcome *outcomes, size_t count)

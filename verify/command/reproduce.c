@@ -123,8 +123,7 @@ int command_reproduce(int argc, char **argv)
 		.parser = parse,
 		.args_doc = "FIGURE... | all",
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
-			   "Figures: all, or those that `touchstone list figures` has.
-			   "
+			   "Figures: all, or those that `touchstone list figures` has.\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
 			   "incomplete.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",
