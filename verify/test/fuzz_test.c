@@ -140,9 +140,9 @@ static void claims_are_kept(void **state)
 {
 	(void)state;
 	static const char *const methods[] = {"stable", "guarded", "compensated", "rounded"};
-	static const char *const arithmetics[] = {"binary64", "binary32", "short:9"};
+	static const char *const arithmetics[] = {"binary64", "short:9"};
 	for (int m = 0; m < 4; m++)
-		for (int a = 0; a < 3; a++)
+		for (int a = 0; a < (brief ? 1 : 2); a++)
 			for (int shape = 0; shape < TOUCHSTONE_SHAPES; shape++) {
 				struct finder finder = {.method = methods[m], .arithmetic = arithmetics[a]};
 				struct fuzz_hunt hunt;

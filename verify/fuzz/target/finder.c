@@ -2,9 +2,11 @@
  * file claims, in binary64. */
 #include "fuzz/target/target.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "fuzz/corpus.h"
+#include "measure/finder_grade.h"
 
 static void ask(struct oracle *oracle, const char *method, enum touchstone_shape shape, const double *number)
 {
