@@ -82,11 +82,16 @@ static const struct method methods[METHODS] = {
 
 static const struct method *find_method(const char *name, char error[160])
 {
-	char known[128] = "";
-	for (int m = 0; m < METHODS; m++) {
+	for (int m = 0; m < METHODS; m++)
 		if (strcmp(methods[m].name, name) == 0) return &methods[m];
-		snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", m ? ", " : "", methods[m].name);
+	snprintf(error, 160, "no method '%.20s'; known are", name);
+	for (int m = 0; m < METHODS; m++) {
+		size_t used = strlen(error), room = 160 - used;
+		if (strlen(methods[m].name) + sizeof " and more" + 1 > room) {
+			snprintf(error + used, room, " and more");
+			break;
+		}
+		snprintf(error + used, room, "%s %s", m ? "," : "", methods[m].name);
 	}
-	snprintf(error, 160, "no method '%.20s'; known are %.110s", name, known);
 	return NULL;
 }
