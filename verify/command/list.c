@@ -187,7 +187,8 @@ static bool list_cases(const char *folder)
 	if (asprintf(&stress, "%s/stress", folder) < 0) return false;
 	bool stressed = access(stress, R_OK) == 0;
 	free(stress);
-	return list_entries(folder, "", list_case) & (!stressed || list_entries(folder, "/stress", list_stress));
+	bool good = list_entries(folder, "", list_case);
+	return (!stressed || list_entries(folder, "/stress", list_stress)) && good;
 }
 
 static bool list_campaigns(const char *folder)
