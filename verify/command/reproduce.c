@@ -122,7 +122,7 @@ int command_reproduce(int argc, char **argv)
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
 			   "Figures: fig3 (separations at impact), fig7 (the bouncing ball).\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
-			   "incomplete.\n\n"
+			   "incomplete; the same call then goes on from there.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",
 	};
 	argp_parse(&argp, argc, argv, 0, NULL, &arguments);
