@@ -31,7 +31,9 @@ static const struct {
 };
 enum { ARITHMETICS = sizeof arithmetics / sizeof *arithmetics };
 
-static const struct figure_entry methods[] = {
+static const struct {
+	const char *name, *about;
+} methods[] = {
 	{"stable", "2014 paper, algorithms 1 and 2: an event when bodies touch or overlap, and approach"},
 	{"naive", "2014 paper, eq. 12 and section 3: textbook roots, whatever the rounding made of them"},
 	{"guarded", "a simulator's guards: slow balls and balls that overlap have no event"},
