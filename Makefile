@@ -100,7 +100,7 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart bench/main): CPPFLAGS += \
+$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart command/audit bench/main): CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
 # Where the cases are when there are none in the folder one works in.
@@ -108,7 +108,7 @@ cases_folder := -DTOUCHSTONE_CASES='"$(CURDIR)/cases"'
 $(BUILD)/object/verify/command/cases.o: CPPFLAGS += $(cases_folder)
 
 # Templates and plot scripts are part of the program.
-$(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
+$(BUILD)/object/reports/page.o $(BUILD)/object/reports/junit.o: $(wildcard reports/templates/*)
 $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
 
 # The sieve's bound holds whether products and sums are fused or not; fused is faster.

@@ -21,6 +21,7 @@ int command_reproduce(int argc, char **argv);
 int command_grade(int argc, char **argv);
 int command_chart(int argc, char **argv);
 int command_replay(int argc, char **argv);
+int command_audit(int argc, char **argv);
 int command_report(int argc, char **argv);
 
 /* The figures that `reproduce` makes, for `list`; the name after the last is NULL. */

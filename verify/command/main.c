@@ -20,6 +20,7 @@ static const struct command {
 	{"grade", "finders of event times, held against the exact answers", command_grade},
 	{"chart", "speed against accuracy, measured here and now", command_chart},
 	{"replay", "one input through every method and arithmetic, beside the exact answer", command_replay},
+	{"audit", "a suite against its thresholds and its history, to be woken by", command_audit},
 	{"report", "pages from stored results", command_report},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };

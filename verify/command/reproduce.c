@@ -20,6 +20,14 @@ static struct result *(*const makers[])(const struct figure_setup *, char error[
 																						 figure_collapse};
 enum { FIGURES = sizeof makers / sizeof *makers };
 
+struct result *figure_make(const char *name, const struct figure_setup *setup, char error[512])
+{
+	for (int f = 0; f < FIGURES; f++)
+		if (strcmp(figures[f].name, name) == 0) return makers[f](setup, error);
+	snprintf(error, 512, "no figure '%.40s'", name);
+	return NULL;
+}
+
 struct arguments {
 	bool wanted[FIGURES];
 	bool full;

@@ -19,4 +19,7 @@ struct figure_setup {
 struct result *figure_impact(const struct figure_setup *setup, char error[512]);   /* 2014, fig. 3 */
 struct result *figure_collapse(const struct figure_setup *setup, char error[512]); /* 2014, section 5 and fig. 7 */
 
+/* That of a name that `figures` (command/command.h) has. */
+struct result *figure_make(const char *name, const struct figure_setup *setup, char error[512]);
+
 #endif

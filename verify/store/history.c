@@ -15,7 +15,8 @@ static const char schema[] =
 	"  compiler TEXT, machine TEXT, seed INTEGER NOT NULL, seconds REAL,"
 	"  state TEXT NOT NULL CHECK (state IN ('running', 'complete', 'interrupted'))) STRICT;"
 	"CREATE TABLE checked (id INTEGER PRIMARY KEY AUTOINCREMENT, audit INTEGER NOT NULL REFERENCES audit,"
-	"  name TEXT NOT NULL, definition TEXT NOT NULL, seconds REAL NOT NULL, accepted INTEGER NOT NULL,"
+	"  name TEXT NOT NULL, definition TEXT NOT NULL, seed INTEGER NOT NULL, seconds REAL NOT NULL, accepted INTEGER "
+	"NOT NULL,"
 	"  UNIQUE (audit, name)) STRICT;"
 	"CREATE TABLE measure (id INTEGER PRIMARY KEY, checked INTEGER NOT NULL REFERENCES checked, name TEXT NOT NULL,"
 	"  nature TEXT NOT NULL, worse TEXT NOT NULL, value REAL, low REAL, high REAL, count INTEGER NOT NULL, hits REAL,"
@@ -71,6 +72,21 @@ static bool create(const struct history *history, char error[STORE_ERROR])
 	return good && history_execute(history, error, "COMMIT", "");
 }
 
+/* Whether the file has all its pages. While there is a log beside it, those that are missing may be in there. */
+static bool is_long_enough(const struct history *history, char error[STORE_ERROR])
+{
+	struct stat there, log;
+	char *name = sqlite3_mprintf("%s-wal", history->path);
+	bool logged = !name || (stat(name, &log) == 0 && log.st_size > 0);
+	sqlite3_free(name);
+	int64_t pages = number(history, "PRAGMA page_count", error), size = number(history, "PRAGMA page_size", error);
+	if (pages < 0 || size < 0) return false;
+	if (logged || stat(history->path, &there) != 0 || there.st_size >= pages * size) return true;
+	snprintf(error, STORE_ERROR, "%.200s: is damaged: %lld of its %lld bytes are missing", history->path,
+			 (long long)(pages * size - there.st_size), (long long)(pages * size));
+	return false;
+}
+
 /* Whether the file is a history, and whole. */
 static bool examine(const struct history *history, char error[STORE_ERROR])
 {
@@ -84,6 +100,7 @@ static bool examine(const struct history *history, char error[STORE_ERROR])
 	snprintf(what, sizeof what, "is of version %lld, and this program knows version %d", (long long)version,
 			 HISTORY_VERSION);
 	if (version != HISTORY_VERSION) return refuse(history, error, what);
+	if (!is_long_enough(history, error)) return false;
 	sqlite3_stmt *statement = history_statement(history, error, "PRAGMA quick_check(1)", "");
 	if (!statement) return false;
 	bool there = sqlite3_step(statement) == SQLITE_ROW || history_trouble(history, error);

@@ -38,6 +38,7 @@ struct history_measure {
 };
 struct history_check {
 	const char *name, *definition; /* what exactly is measured: nights with another definition are no reference */
+	uint64_t seed;                 /* the first it ran with: the audit's, or one of its own */
 	double seconds;
 	bool accepted; /* what comes from here on is held against this one and later ones only */
 	const struct history_measure *measures;
@@ -65,6 +66,9 @@ struct history_key {
  * one more; the caller frees it. */
 bool history_nights(struct history *history, const struct history_key *key, struct night **nights, size_t *count,
 					char error[STORE_ERROR]);
+
+/* When an audit was and what of: "audit 12 of 2026-11-01T03:00:00Z, revision 39dc0da". Returns `when`. */
+const char *history_when(struct history *history, int64_t audit, char when[80]);
 
 /* How long a check took on this machine: the median of the last audits, or NaN. The key's measure does not matter. */
 double history_seconds(struct history *history, const struct history_key *key);

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,7 +65,7 @@ bool history_nights(struct history *history, const struct history_key *key, stru
 {
 	sqlite3_stmt *statement = history_statement(
 		history, error,
-		"SELECT a.id, a.seed, m.finding IS NULL, " MEASURED " FROM checked c JOIN audit a ON a.id = c.audit"
+		"SELECT a.id, c.seed, m.finding IS NULL, " MEASURED " FROM checked c JOIN audit a ON a.id = c.audit"
 		" JOIN measure m ON m.checked = c.id WHERE c.name = ?1 AND c.definition = ?2 AND m.name = ?3"
 		" AND a.state = 'complete' AND (m.nature <> 'timing' OR a.machine = ?4) AND c.id >= ifnull((SELECT max(b.id)"
 		" FROM checked b JOIN audit o ON o.id = b.audit WHERE b.name = ?1 AND b.accepted AND o.state = 'complete'), 0)"
@@ -85,6 +86,19 @@ bool history_nights(struct history *history, const struct history_key *key, stru
 	if (step != SQLITE_DONE) history_trouble(history, error);
 	sqlite3_finalize(statement);
 	return step == SQLITE_DONE;
+}
+
+const char *history_when(struct history *history, int64_t audit, char when[80])
+{
+	char error[STORE_ERROR];
+	sqlite3_stmt *statement =
+		history_statement(history, error, "SELECT date, revision FROM audit WHERE id = ?", "i", audit);
+	bool there = statement && sqlite3_step(statement) == SQLITE_ROW;
+	const char *revision = there ? text(statement, 1) : "";
+	snprintf(when, 80, "audit %lld of %.20s%s%.20s", (long long)audit, there ? text(statement, 0) : "?",
+			 *revision ? ", revision " : "", revision);
+	sqlite3_finalize(statement);
+	return when;
 }
 
 double history_seconds(struct history *history, const struct history_key *key)

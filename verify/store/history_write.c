@@ -59,8 +59,9 @@ bool history_add(struct history *history, int64_t audit, const struct history_ch
 {
 	if (!begin(history, error)) return false;
 	bool good = history_execute(
-		history, error, "INSERT INTO checked (audit, name, definition, seconds, accepted) VALUES (?, ?, ?, ?, ?)",
-		"ittdi", audit, check->name, check->definition, check->seconds, (int64_t)check->accepted);
+		history, error,
+		"INSERT INTO checked (audit, name, definition, seed, seconds, accepted) VALUES (?, ?, ?, ?, ?, ?)", "ittidi",
+		audit, check->name, check->definition, (int64_t)check->seed, check->seconds, (int64_t)check->accepted);
 	int64_t checked = sqlite3_last_insert_rowid(history->database);
 	for (size_t m = 0; good && m < check->measure_count; m++)
 		good = add_measure(history, checked, &check->measures[m], error);

@@ -58,7 +58,7 @@ static int64_t add_audit(struct history *history, const struct history_audit *au
 						 const char *finding)
 {
 	int64_t id;
-	const struct history_check check = {key.check, key.definition, 1.5, accepted, measures, count};
+	const struct history_check check = {key.check, key.definition, audit->seed, 1.5, accepted, measures, count};
 	const struct history_finding found = {key.check, measures->name, finding};
 	must(history_begin(history, audit, &id, error) && history_add(history, id, &check, error) &&
 		 history_end(history, id, state, 2, &found, finding != NULL, error));
@@ -176,7 +176,7 @@ static void two_at_once_lose_nothing(void **state)
 		struct history *history = history_open(path, true, error);
 		int64_t id;
 		bool good = history;
-		const struct history_check check = {key.check, key.definition, 1, false, &measure, 1};
+		const struct history_check check = {key.check, key.definition, 1, 1, false, &measure, 1};
 		for (int a = 0; a < AUDITS && good; a++)
 			good = history_begin(history, &usual, &id, error) && history_add(history, id, &check, error) &&
 				   history_end(history, id, "complete", 1, NULL, 0, error);
@@ -328,7 +328,7 @@ static void full_disks_are_told(void **state)
 	pid_t writer = fork();
 	if (writer == 0) {
 		const struct history_measure measure = {"below", WORSE_MORE, measurement_proportion(1, 10)};
-		const struct history_check check = {key.check, key.definition, 1, false, &measure, 1};
+		const struct history_check check = {key.check, key.definition, 1, 1, false, &measure, 1};
 		struct history *history = history_open(path, true, error);
 		struct rlimit limit = {64 << 10, 64 << 10};
 		signal(SIGXFSZ, SIG_IGN);
