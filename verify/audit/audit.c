@@ -62,14 +62,14 @@ static void run_check(struct audit *audit, struct audit_check *one, struct check
 {
 	const struct audit_plan *plan = audit->plan;
 	char error[STORE_ERROR];
-	if (interrupted()) {
+	if (!interrupted() && !fits(audit, one, began)) return;
+	if (interrupted()) { /* perhaps only while it was tried how long it takes */
 		audit->interrupted = !interrupted_by_time();
 		not_reached(audit, one, NAN);
 		return;
 	}
-	if (!fits(audit, one, began)) return;
 	double clock = progress_clock();
-	bool done = !interrupted() && check_run(one->check, one->seed, 1, plan->threads, values, error);
+	bool done = check_run(one->check, one->seed, 1, plan->threads, values, error);
 	one->seconds = progress_clock() - clock;
 	if (done) {
 		one->state = AUDIT_DONE;

@@ -64,7 +64,10 @@ void audit_print(FILE *stream, const struct audit *audit)
 	size_t done = audit_count(audit, AUDIT_DONE);
 	fprintf(stream, "\n%s, seed %llu: %zu of %zu checks in %s, %s", suite->name,
 			(unsigned long long)audit->plan->origin.seed, done, suite->check_count,
-			progress_duration(took, audit->seconds), audit_finding(audit) ? "with findings" : "all well");
+			progress_duration(took, audit->seconds),
+			audit_finding(audit) ? "with findings"
+			: done               ? "all well"
+								 : "nothing was done");
 	if (audit->plan->history)
 		fprintf(stream, "; audit %lld%s; false alarms stated at %g an audit", (long long)audit->number,
 				audit->interrupted ? ", interrupted, is no reference" : "", suite->false_alarms);

@@ -5,7 +5,7 @@
 
 #include "command/progress.h"
 
-static const double tried = 0.02; /* share of a check that tells how long it takes */
+static const double tried[2] = {0.005, 0.02}; /* shares of a check that tell how long it takes */
 
 uint64_t check_seed(const struct suite_check *check, uint64_t audit_seed)
 {
@@ -26,13 +26,26 @@ bool check_run(const struct suite_check *check, uint64_t seed, double share, int
 	}
 }
 
-double check_estimate(const struct suite_check *check, uint64_t seed, int threads)
+/* Seconds that a share of the check takes; NaN when it cannot be tried. */
+static double try(const struct suite_check *check, uint64_t seed, double share, int threads, struct check_value *values)
 {
 	char error[STORE_ERROR];
-	struct check_value *values = calloc(check->measure_count, sizeof *values);
 	double began = progress_clock();
-	bool known = values && check->kind != CHECK_FIGURE && check_run(check, seed, tried, threads, values, error);
-	double seconds = progress_clock() - began;
+	bool done = check_run(check, seed, share, threads, values, error);
+	return done ? progress_clock() - began : NAN;
+}
+
+double check_estimate(const struct suite_check *check, uint64_t seed, int threads)
+{
+	struct check_value *values = calloc(check->measure_count, sizeof *values);
+	double seconds = NAN;
+	if (values && check->kind != CHECK_FIGURE) {
+		double small = try(check, seed, tried[0], threads, values), large = try(check, seed, tried[1], threads, values);
+		double whole =
+			fmax(0, large - small) / (tried[1] - tried[0]); /* what grows with the share; the rest does not */
+		seconds = (small + whole) * (double)check->seeds;
+		if (isnan(large)) seconds = NAN;
+	}
 	free(values);
-	return known ? seconds / tried * (double)check->seeds : NAN;
+	return seconds;
 }

@@ -71,9 +71,9 @@ static void add_measure(struct result *result, const struct trend_log *log, cons
 			.y = {measure, 0, {0, 0}},
 			.columns = columns,
 		});
-	struct figure_series band = figure_series(figure, "usual", SERIES_LINE);
+	struct figure_series band = figure_series(figure, "usual band", SERIES_LINE);
 	struct figure_series nights = figure_series(figure, "audits", SERIES_POINTS);
-	struct figure_series findings = figure_series(figure, "regressions and broken thresholds", SERIES_ENDS);
+	struct figure_series findings = figure_series(figure, "found wanting", SERIES_ENDS);
 	struct usual usual = {0};
 	for (size_t p = 0; p < log->point_count; p++) {
 		const struct trend_point *point = &log->points[p];
