@@ -87,7 +87,7 @@ static void regressions_are_told_until_accepted(void **state)
 	json_decref(json);
 
 	for (int seed = 2; seed <= 5; seed++) {
-		char options[40];
+		char options[60];
 		snprintf(options, sizeof options, "--seed %d --revision r%d", seed, seed);
 		json_decref(audit_read(options, 0));
 	}

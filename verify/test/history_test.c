@@ -248,7 +248,7 @@ static void execute(const char *sql)
 static void fill(unsigned count)
 {
 	struct history_measure *measures = calloc(count, sizeof *measures);
-	char(*names)[12] = calloc(count, sizeof *names);
+	char(*names)[20] = calloc(count, sizeof *names);
 	assert_true(measures && names);
 	for (unsigned m = 0; m < count; m++) {
 		snprintf(names[m], sizeof names[m], "below %u", m);
