@@ -96,8 +96,9 @@ static void pages_show_every_measure(void **state)
 	(void)state;
 	char *folder = folder_new(), *path, *results, *report;
 	struct stat size;
-	assert_true(asprintf(&path, "%s/history.db", folder) > 0 && asprintf(&results, "%s/results", folder) > 0 &&
-				asprintf(&report, "%s/report", folder) > 0);
+	assert_true(asprintf(&path, "%s/history.db", folder) > 0);
+	assert_true(asprintf(&results, "%s/results", folder) > 0);
+	assert_true(asprintf(&report, "%s/report", folder) > 0);
 	fill(path);
 	assert_int_equal(stat(path, &size), 0);
 	double began = progress_clock();
