@@ -78,12 +78,6 @@ static bool understand(struct suite *suite, const char *cases, char error[STORE_
 	return true;
 }
 
-static char *stem(const char *path)
-{
-	const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
-	return strndup(base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
-}
-
 static bool read_text(struct suite_source *source, const char *path, char error[STORE_ERROR])
 {
 	cyaml_data_t *data = NULL;
@@ -98,7 +92,7 @@ struct suite *suite_open(const char *path, const char *cases, char error[STORE_E
 {
 	struct suite *suite = calloc(1, sizeof *suite);
 	if (suite) suite->source = calloc(1, sizeof *suite->source);
-	if (suite) suite->name = stem(path);
+	if (suite) suite->name = text_stem(path);
 	if (!suite || !suite->source || !suite->name)
 		snprintf(error, STORE_ERROR, "out of memory");
 	else if (read_text(suite->source, path, error) && understand(suite, cases, error))

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "audit/suite.h"
 #include "command/cases.h"
 #include "family/family.h"
 #include "store/query_file.h"
@@ -144,12 +145,37 @@ static bool list_cases(const char *folder)
 	return good;
 }
 
+static bool list_suites(const char *folder)
+{
+	char *path, *suite_folder, error[STORE_ERROR];
+	struct dirent **entries;
+	if (asprintf(&suite_folder, "%s/suites", folder) < 0) return false;
+	int count = scandir(suite_folder, &entries, is_scene, versionsort);
+	bool good = true;
+	for (int e = 0; e < count; e++) { /* none where there is no such folder */
+		struct suite *suite = NULL;
+		if (asprintf(&path, "%s/%s", suite_folder, entries[e]->d_name) >= 0) {
+			suite = suite_open(path, folder, error);
+			free(path);
+		}
+		if (suite)
+			print(suite->name, suite->title);
+		else
+			good = false, refuse("%s", error);
+		suite_close(suite);
+		free(entries[e]);
+	}
+	if (count >= 0) free(entries);
+	free(suite_folder);
+	return good;
+}
+
 static const struct kind {
 	const char *name;
 	bool (*list)(const char *folder);
 } kinds[] = {
 	{"cases", list_cases},       {"methods", list_methods}, {"arithmetics", list_arithmetics},
-	{"families", list_families}, {"figures", list_figures},
+	{"families", list_families}, {"figures", list_figures}, {"suites", list_suites},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -167,11 +193,13 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case ARGP_KEY_ARG:
 		if (wish->kind)
-			refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures");
+			refuse_usage(
+				"list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, suites");
 		for (int k = 0; k < KINDS; k++)
 			if (strcmp(kinds[k].name, argument) == 0) wish->kind = &kinds[k];
 		if (!wish->kind)
-			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures", argument);
+			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, suites",
+						 argument);
 		return 0;
 	default:
 		return ARGP_ERR_UNKNOWN;
@@ -185,9 +213,10 @@ int command_list(int argc, char **argv)
 	static const struct argp argp = {
 		.options = options,
 		.parser = parse,
-		.args_doc = "[cases|methods|arithmetics|families|figures]",
+		.args_doc = "[cases|methods|arithmetics|families|figures|suites]",
 		.doc = "Lists what there is, with one line each: scenes that `run` knows by name, methods and arithmetics, "
-			   "families of questions to finders, figures that `reproduce` makes.\vExample: touchstone list methods",
+			   "families of questions to finders, figures that `reproduce` makes, suites of `audit`.\vExample: "
+			   "touchstone list methods",
 	};
 	struct wish wish = {0};
 	argp_parse(&argp, argc, argv, 0, NULL, &wish);

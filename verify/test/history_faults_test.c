@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "history_samples.h"
+#include "scene/random.h"
 
 static void assert_refused(bool writing, const char *words)
 {
@@ -98,6 +99,59 @@ static void damaged_files_are_refused(void **state)
 	assert_refused(true, "damaged");
 }
 
+static void see(void *context, const struct history_row *row)
+{
+	*(size_t *)context +=
+		strlen(row->date) + strlen(row->suite) + row->measured.sample.count + strlen(row->measured.word);
+}
+
+/* Bytes changed anywhere: the file is refused, or what is read of it is something that can be compared. */
+static void changed_bytes_are_survived(void **state)
+{
+	(void)state;
+	enum { SEED = 20261122, CHANGED = 200, CHANGES = 4 };
+	print_message("seed %d\n", SEED);
+	struct random_state random = random_seed(SEED);
+	struct stat there;
+	unsigned opened = 0;
+	fill(30);
+	assert_int_equal(stat(path, &there), 0);
+	unsigned char *bytes = malloc((size_t)there.st_size);
+	FILE *file = fopen(path, "r");
+	assert_true(bytes && file && fread(bytes, 1, (size_t)there.st_size, file) == (size_t)there.st_size);
+	fclose(file);
+	for (int c = 0; c < CHANGED; c++) {
+		size_t at[CHANGES];
+		unsigned char old[CHANGES];
+		for (int k = 0; k < CHANGES; k++) {
+			at[k] = random_below(&random, (uint64_t)there.st_size);
+			old[k] = bytes[at[k]];
+			bytes[at[k]] = (unsigned char)random_below(&random, 256);
+		}
+		file = fopen(path, "w");
+		assert_true(file && fwrite(bytes, 1, (size_t)there.st_size, file) == (size_t)there.st_size);
+		fclose(file);
+		for (int k = CHANGES; k-- > 0;) bytes[at[k]] = old[k];
+		struct history *history = history_open(path, false, error);
+		if (!history) continue;
+		opened++;
+		struct night *nights;
+		size_t count, seen = 0;
+		const struct history_key wanted = {key.check, key.definition, "below 7", key.machine};
+		history_read(history, see, &seen, error);
+		if (history_nights(history, &wanted, &nights, &count, error) && count > 0) {
+			nights[count] = (struct night){1000, 7, true, measurement_proportion(1, 10)};
+			struct verdict verdict = verdict_of(nights, count + 1, WORSE_MORE);
+			assert_true(verdict.chance >= 0 && verdict.chance <= 1);
+		}
+		free(nights);
+		history_close(history);
+	}
+	free(bytes);
+	print_message("%u of %d changed histories could be opened\n", opened, CHANGED);
+	assert_true(opened > 0 && opened < CHANGED);
+}
+
 /* The disk is full: the size a file may have is limited, so that writing fails as it then does. */
 static void full_disks_are_told(void **state)
 {
@@ -155,9 +209,8 @@ static void read_only_files_are_told(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		IN_FOLDER(strange_files_are_refused),
-		IN_FOLDER(damaged_files_are_refused),
-		IN_FOLDER(full_disks_are_told),
+		IN_FOLDER(strange_files_are_refused),  IN_FOLDER(damaged_files_are_refused),
+		IN_FOLDER(changed_bytes_are_survived), IN_FOLDER(full_disks_are_told),
 		IN_FOLDER(read_only_files_are_told),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
