@@ -21,6 +21,7 @@ EMBED(plot_curves, "plots/curves.gp");
 EMBED(plot_bars, "plots/bars.gp");
 EMBED(plot_frontier, "plots/frontier.gp");
 EMBED(plot_trend, "plots/trend.gp");
+EMBED(plot_map, "plots/map.gp");
 
 static const struct kind {
 	const char *name, *script;
@@ -33,6 +34,7 @@ static const struct kind {
 	{"bars", plot_bars, {"category", "value", "low", "high"}},
 	{"frontier", plot_frontier, {"x", "y", "low", "high", "best"}},
 	{"trend", plot_trend, {"time", "y", "low", "high"}},
+	{"map", plot_map, {"x", "y", "value"}},
 };
 
 static const struct kind *kind_of(const char *name)

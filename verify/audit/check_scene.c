@@ -45,7 +45,7 @@ static bool run(const struct suite_check *check, const char *arithmetic, uint64_
 		if (plan.limits.events < UINT64_MAX) plan.limits.events = (uint64_t)ceil(share * (double)plan.limits.events);
 	}
 	bool timed = measures(check, SCENE_EVENT_TIME, SCENE_COLLISION_SPEED);
-	struct simulation_progress progress = {progress_begin(check->name, "events"), 0, (unsigned)count};
+	struct simulation_progress progress = {.line = progress_begin(check->name, "events"), .runs = (unsigned)count};
 #pragma omp parallel for schedule(dynamic, 1) num_threads(timed ? 1 : threads)
 	for (size_t run = 0; run < count; run++) outcome_find(&outcomes[run], &plan, seed + run, &progress);
 	progress_end(&progress.line);

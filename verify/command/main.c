@@ -21,6 +21,8 @@ static const struct command {
 	{"chart", "speed against accuracy, measured here and now", command_chart},
 	{"replay", "one input through every method and arithmetic, beside the exact answer", command_replay},
 	{"audit", "a suite against its thresholds and its history, to be woken by", command_audit},
+	{"campaign", "runs over a grid of parameters and seeds, each made once", command_campaign},
+	{"merge", "the stores of a campaign's shards put together", command_merge},
 	{"report", "pages from stored results", command_report},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
@@ -64,7 +66,7 @@ int main(int argc, char **argv)
 {
 	atexit(check_output);
 	argp_err_exit_status = STATUS_REFUSED;
-	argp_program_version = "touchstone 0.1";
+	argp_program_version = "touchstone " TOUCHSTONE_VERSION;
 
 	struct argp_option options[COMMANDS + 2] = {{.doc = "Commands:"}};
 	for (int c = 0; c < COMMANDS; c++)
