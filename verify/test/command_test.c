@@ -56,7 +56,7 @@ static void listings_are_complete(void **state)
 	const struct family *family;
 	for (size_t n = 0; (family = family_at(n)); n++) assert_non_null(strstr(families.out, family->name));
 	assert_non_null(strstr(families.out, "harvested; ball-ball ball-plane half-space\n"));
-	assert_int_equal(program_lines(cases.out), folder_count("cases", ".yaml"));
+	assert_int_equal(program_lines(cases.out), folder_count("cases", ".yaml") + folder_count("cases/stress", ".yaml"));
 	assert_non_null(strstr(cases.out, "bouncing-ball"));
 	struct said *const said[] = {&all, &methods, &cases, &arithmetics, &families, &figures};
 	for (int s = 0; s < 6; s++) {
@@ -102,7 +102,7 @@ static void bad_usage_is_one_line(void **state)
 	static const struct {
 		const char *arguments, *words;
 	} wrong[] = {
-		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, replay, campaign"},
+		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, fuzz, replay, campaign"},
 		{"run", "no scene"},
 		{"run cradle column", "second scene"},
 		{"run nowhere.yaml", "nowhere.yaml: no such file"},
