@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "audit/suite.h"
 #include "campaign/campaign_file.h"
 #include "command/cases.h"
 #include "family/family.h"
@@ -162,6 +163,21 @@ static bool list_campaign(const char *folder, const char *base)
 	return file;
 }
 
+/* And for a suite. */
+static bool list_suite(const char *folder, const char *base)
+{
+	char *path, error[STORE_ERROR];
+	if (asprintf(&path, "%s/suites/%s", folder, base) < 0) return false;
+	struct suite *suite = suite_open(path, folder, error);
+	free(path);
+	if (suite)
+		print(suite->name, suite->title);
+	else
+		refuse("%s", error);
+	suite_close(suite);
+	return suite;
+}
+
 /* Lists what the folder of the cases holds, or one in it, which need not be there. */
 static bool list_entries(const char *folder, const char *within, bool (*list)(const char *folder, const char *base))
 {
@@ -191,12 +207,18 @@ static bool list_campaigns(const char *folder)
 	return list_entries(folder, "/campaigns", list_campaign);
 }
 
+static bool list_suites(const char *folder)
+{
+	return list_entries(folder, "/suites", list_suite);
+}
+
 static const struct kind {
 	const char *name;
 	bool (*list)(const char *folder);
 } kinds[] = {
 	{"cases", list_cases},       {"methods", list_methods}, {"arithmetics", list_arithmetics},
 	{"families", list_families}, {"figures", list_figures}, {"campaigns", list_campaigns},
+	{"suites", list_suites},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -214,13 +236,14 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case ARGP_KEY_ARG:
 		if (wish->kind)
-			refuse_usage(
-				"list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, campaigns");
+			refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, "
+						 "campaigns, suites");
 		for (int k = 0; k < KINDS; k++)
 			if (strcmp(kinds[k].name, argument) == 0) wish->kind = &kinds[k];
 		if (!wish->kind)
-			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns",
-						 argument);
+			refuse_usage(
+				"list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns, suites",
+				argument);
 		return 0;
 	default:
 		return ARGP_ERR_UNKNOWN;
@@ -234,9 +257,10 @@ int command_list(int argc, char **argv)
 	static const struct argp argp = {
 		.options = options,
 		.parser = parse,
-		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns]",
+		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns|suites]",
 		.doc = "Lists what there is, with one line each: scenes that `run` knows by name, methods and arithmetics, "
-			   "families of questions to finders, figures that `reproduce` makes, campaigns.\vExample: touchstone list "
+			   "families of questions to finders, figures that `reproduce` makes, campaigns, suites of "
+			   "`audit`.\vExample: touchstone list "
 			   "methods",
 	};
 	struct wish wish = {0};
