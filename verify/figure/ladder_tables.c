@@ -85,21 +85,47 @@ static void add_fit(struct result_table table, const struct ladder *ladder, int 
 	}
 }
 
+static void add_line(struct result_table table, const struct ladder *ladder, int lane, enum ladder_measure measure)
+{
+	char label[64];
+	size_t rungs;
+	struct line_fit line = ladder_line(ladder, lane, measure, &rungs);
+	const struct gas_tally *direct = ladder_binary64(ladder, lane);
+	bool cools = ladder->point[lane * LADDER_RUNGS].restitution < 1, drifts = measure == LADDER_DRIFT;
+	if (isnan(line.slope) || (drifts && (cools || ladder_late(lane)))) return;
+	table_row(table);
+	table_text(table, "%s", ladder_label(ladder, lane, label));
+	table_text(table, "%s", ladder_measures[measure]);
+	table_text(table, "%.3f ± %.3f", -line.slope, line.slope_error);
+	table_count(table, rungs);
+	table_text(table, "-");
+	table_text(table, "%.2g", exp2(line.intercept + 53 * line.slope));
+	if (direct)
+		table_text(table, "%.2g", ladder_measured(direct, measure));
+	else
+		table_text(table, "-");
+}
+
 void ladder_tables(struct result *result, const struct ladder *ladder)
 {
 	static const char *const columns[] = {
-		"restitution, density",        "what", "exponent", "rungs", "scatter", "at 53 bits, by the line (95 %)",
-		"in binary64, counted (95 %)", NULL};
+		"restitution, density",      "what", "exponent", "rungs", "scatter", "at 53 bits, by the line (95 %)",
+		"in binary64 itself (95 %)", NULL};
 	struct result_table table =
 		result_table(result, "How rates fall with the bits carried",
 					 "rate ~ 2^(-exponent P), the most likely line for Poisson counts on all rungs below 53 bits; its "
 					 "error allows for "
 					 "events that come in bursts and for the scatter around the line (1: that of Poisson counts), but "
 					 "not for a bend "
-					 "beyond the rungs. What is counted nowhere, or on one rung only, has no line.",
+					 "beyond the rungs. Where the scatter is large there is no straight line to speak of. What is "
+					 "counted nowhere, or on "
+					 "one rung only, has none. Depths, in diameters, and drifts: lines of least squares.",
 					 columns);
-	for (int lane = 0; lane < LADDER_LANES; lane++)
+	for (int lane = 0; lane < LADDER_LANES; lane++) {
 		for (int quantity = 0; quantity < LADDER_QUANTITIES; quantity++)
 			add_fit(table, ladder, lane, (enum ladder_quantity)quantity);
+		for (int measure = 0; measure < LADDER_MEASURES; measure++)
+			add_line(table, ladder, lane, (enum ladder_measure)measure);
+	}
 	for (int lane = 0; lane < LADDER_LANES; lane++) add_lane(result, ladder, lane);
 }
