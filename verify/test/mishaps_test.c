@@ -241,7 +241,7 @@ static void inelastic_gas_goes_on(void **state)
 	keep(&setup, &kept);
 	assert_int_equal(kept.mishaps.three_body.contacts, setup.events);
 	assert_int_equal(kept.starts, 1);
-	assert_true(kept.cooled > (brief ? 10 : 160) && kept.recentred > 0);
+	assert_true(kept.cooled > (brief ? 10 : 160) && (brief || kept.recentred > 0));
 	keep(&setup, &again);
 	kept.mishaps.three_body.trio = again.mishaps.three_body.trio = NULL;
 	assert_memory_equal(&kept.mishaps.three_body, &again.mishaps.three_body, sizeof kept.mishaps.three_body);
