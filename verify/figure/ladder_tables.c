@@ -7,7 +7,7 @@ static void add_rung(struct result_table table, const struct gas_point *point, c
 {
 	const struct three_body *three_body = &tally->three_body;
 	double contacts = (double)three_body->contacts, overlapping = (double)three_body->overlapping;
-	double ulp = ldexp(1, -point->bits); /* of the numbers just below a contact distance of 1 */
+	double ulp = exp2(-ladder_bits(point)); /* the step of the numbers just below a contact distance of 1 */
 	struct interval below = interval_of_proportion(three_body->overlapping, three_body->contacts), rate;
 	double events = three_body_rate(three_body, &rate);
 	table_text(table, "%s%s", point->arithmetic, point->clock > 0 ? ", absolute" : "");
@@ -47,10 +47,11 @@ static void add_lane(struct result *result, const struct ladder *ladder, int lan
 	snprintf(title, sizeof title, "The rungs: restitution and density %s", ladder_label(ladder, lane, label));
 	struct result_table table = result_table(
 		result, title,
-		lane == 0 ? "Depths are those of overlaps at impact; ulp is 2^-P, the step of the numbers just below contact. "
-					"Repeated: the same pair again, with no other event of either between. Entangled: a pair more "
-					"than 16 ulp deep at two looks in a row, ten collisions per particle apart."
-				  : NULL,
+		lane == 0
+			? "Depths are those of overlaps at impact; ulp is 2^-bits, the step of the numbers just below contact. "
+			  "Repeated: the same pair again, with no other event of either between. Entangled: a pair more "
+			  "than 16 ulp deep at two looks in a row, ten collisions per particle apart."
+			: NULL,
 		columns);
 	for (int r = 0; r < LADDER_RUNGS; r++) {
 		const struct gas_tally *tally = &ladder->tally[lane * LADDER_RUNGS + r];
@@ -74,7 +75,10 @@ static void add_fit(struct result_table table, const struct ladder *ladder, int 
 	table_count(table, fit.rungs);
 	table_text(table, "%.2g", fit.dispersion);
 	double rate = rate_fit_at(&fit, 53, &interval);
-	table_text(table, "%.2g (%.2g to %.2g)", rate, interval.low, interval.high);
+	if (rate_fit_exponent_error(&fit) < 0.3)
+		table_text(table, "%.2g (%.2g to %.2g)", rate, interval.low, interval.high);
+	else
+		table_text(table, "no telling");
 	if (direct) {
 		uint64_t count = ladder_count(direct, quantity);
 		interval = interval_of_rate(count, (double)direct->three_body.contacts);
