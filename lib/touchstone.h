@@ -19,6 +19,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default) /* the shared library shows what is declared here, and nothing else */
+#endif
 
 /* ------------------------------------------------------------------ scenes */
 
@@ -375,6 +378,9 @@ touchstone_ball_ball_finder touchstone_ball_ball;
 touchstone_ball_leave_finder touchstone_ball_leave;
 touchstone_ball_plane_finder touchstone_ball_plane;
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

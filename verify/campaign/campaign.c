@@ -1,14 +1,16 @@
 #include "campaign/campaign.h"
 
 #include <math.h>
-#include <stdint.h>
+#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "aside.h"
+#include "campaign/courier.h"
 #include "campaign/piece_store.h"
+#include "campaign/work.h"
 
 /* What the threads share; all of it is touched within the critical section `campaign` only. */
 struct campaign_work {
@@ -20,7 +22,7 @@ struct campaign_work {
 		size_t piece;
 		double cost, part; /* part: how much of it is done */
 	} * missing;
-	size_t missing_count, taken;
+	size_t missing_count, taken, finished;
 	double cost, done; /* of all that is missing */
 	bool lost;         /* nothing more can be kept */
 	size_t refused;    /* pieces */
@@ -93,37 +95,90 @@ static void report(const struct campaign_watch *watch, double part)
 	advance(watch->work, &watch->work->missing[watch->piece], fmin(fmax(part, 0), 1));
 }
 
-/* Keeps what became of a piece: a result, an error, or neither when it was stopped. The first error is the one told. */
-static void keep(struct campaign_work *work, struct missing *missing, json_t *result, const char *error)
+/* ------------------------------------------------------------------ who makes it */
+
+size_t work_piece(const struct campaign_work *work, long at)
 {
-	const struct campaign *campaign = work->campaign;
-	char key[CAMPAIGN_KEY];
-	advance(work, missing, result || *error ? 1 : 0);
+	return work->missing[at].piece;
+}
+
+void work_key(const struct campaign_work *work, long at, char key[CAMPAIGN_KEY])
+{
+	work->campaign->key(work->campaign->context, work_piece(work, at), key);
+}
+
+long work_take(struct campaign_work *work)
+{
+	long at = WORK_NONE;
+#pragma omp critical(campaign)
+	if (!stopped(work) && work->taken < work->missing_count) at = (long)work->taken++;
+	return at;
+}
+
+bool work_stopped(struct campaign_work *work)
+{
+	bool answer;
+#pragma omp critical(campaign)
+	answer = stopped(work);
+	return answer;
+}
+
+bool work_over(struct campaign_work *work)
+{
+	bool answer;
+#pragma omp critical(campaign)
+	answer = work->finished == work->missing_count;
+	return answer;
+}
+
+/* Of several errors the first is the one told. */
+static void keep(struct campaign_work *work, long at, json_t *result, const char *error)
+{
+	work->finished++;
+	advance(work, &work->missing[at], result || *error ? 1 : 0);
 	if (!result) {
 		if (*error && work->refused++ == 0) snprintf(work->error, CAMPAIGN_ERROR, "%s", error);
 		return;
 	}
-	campaign->key(campaign->context, missing->piece, key);
-	json_array_set_new(work->results, missing->piece, result);
+	char key[CAMPAIGN_KEY];
+	work_key(work, at, key);
+	json_array_set_new(work->results, work_piece(work, at), result);
 	if (work->store && !work->lost) work->lost = !piece_store_add(work->store, key, result, work->error);
+}
+
+void work_keep(struct campaign_work *work, long at, json_t *result, const char *error)
+{
+#pragma omp critical(campaign)
+	keep(work, at, result, error);
 }
 
 /* What each thread does: takes a piece, makes it, keeps it, until none is left. */
 static void labour(struct campaign_work *work)
 {
 	const struct campaign *campaign = work->campaign;
-	for (;;) {
-		size_t at = SIZE_MAX;
-#pragma omp critical(campaign)
-		if (!stopped(work) && work->taken < work->missing_count) at = work->taken++;
-		if (at == SIZE_MAX) return;
-		struct campaign_watch watch = {work->setup->stop, report, work, at};
+	for (long at; (at = work_take(work)) != WORK_NONE;) {
+		struct campaign_watch watch = {work->setup->stop, report, work, (size_t)at};
 		char error[CAMPAIGN_ERROR] = "";
-		json_t *result = campaign->make(campaign->context, work->missing[at].piece, &watch, error);
-#pragma omp critical(campaign)
-		keep(work, &work->missing[at], result, error);
+		json_t *result = campaign->make(campaign->context, work_piece(work, at), &watch, error);
+		work_keep(work, at, result, error);
 	}
 }
+
+/* The thread that began is the one that may speak to other ranks. */
+static void labour_together(struct campaign_work *work)
+{
+	const struct campaign_setup *setup = work->setup;
+	bool ranks = setup->ranks && setup->rank_count > 1;
+#pragma omp parallel num_threads(setup->threads + (ranks ? 1 : 0))
+	{
+		if (ranks && omp_get_thread_num() == 0)
+			courier_serve(work, setup->ranks, setup->rank_count, setup->say, setup->context);
+		else
+			labour(work);
+	}
+}
+
+/* ------------------------------------------------------------------ from begin to end */
 
 static bool open_store(struct campaign_work *work)
 {
@@ -153,10 +208,8 @@ json_t *campaign_run(const struct campaign *campaign, const struct campaign_setu
 								 .error = error};
 	snprintf(error, CAMPAIGN_ERROR, "out of memory");
 	bool good = work.results && work.missing && open_store(&work) && look_up(&work);
-	if (good && work.missing_count > 0) {
-#pragma omp parallel num_threads(setup->threads)
-		labour(&work);
-	}
+	if (!good) work.lost = true; /* so that other ranks are sent home */
+	if (work.missing_count > 0 || setup->ranks) labour_together(&work);
 	good = good && !work.lost && work.refused == 0;
 	good = piece_store_close(work.store, good ? error : NULL) && good;
 	free(work.missing);

@@ -15,6 +15,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "campaign/ranks.h"
+
 enum {
 	CAMPAIGN_KEY = 2048,  /* room for a key, its end included */
 	CAMPAIGN_ERROR = 512, /* room for a one-line message, its end included */
@@ -49,6 +51,8 @@ struct campaign_setup {
 	bool this_revision;       /* leave out, and make again, what another revision of the program has made */
 	int threads;              /* pieces made side by side; no number depends on it */
 	const volatile int *stop; /* non-zero: come to an end with what is done; or NULL */
+	const struct ranks *ranks; /* others that make pieces as well, `rank_count` with this one; NULL: none */
+	int rank_count;
 	/* Told how much of what was missing is done, 0 to 1, by one thread at a time; or NULL. */
 	void (*progress)(void *context, double part);
 	/* Told one line of what there is to know about the store (a line that was cut off, say); NULL: standard error. */

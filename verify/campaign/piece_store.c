@@ -276,7 +276,8 @@ bool piece_store_add(struct piece_store *store, const char *key, json_t *result,
 bool piece_store_close(struct piece_store *store, char *error)
 {
 	if (!store) return true;
-	bool good = store->file < 0 || (fdatasync(store->file) == 0) & (close(store->file) == 0);
+	bool good = store->file < 0 || fdatasync(store->file) == 0;
+	if (store->file >= 0) good = close(store->file) == 0 && good;
 	if (!good && error) refuse(store, error, "cannot be written: %s", strerror(errno));
 	json_decref(store->head);
 	json_decref(store->lines);

@@ -1,14 +1,24 @@
 #include "campaign/yaml_flow.h"
 
+#include <ctype.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { DEEPEST = 8 };
 
-/* Plain words stay as they are, for they mean the same on one line; others are quoted. */
+/* Whether a word means the same without quotes, on one line. */
+static bool is_plain(const char *word)
+{
+	static const char safe[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.:/+-";
+	size_t length = strlen(word);
+	return isalnum((unsigned char)word[0]) && !word[strspn(word, safe)] && word[length - 1] != ':';
+}
+
+/* Plain words stay as they are, for they mean the same on one line; others are quoted where they need it. */
 static bool write_word(FILE *stream, const yaml_node_t *node)
 {
 	const char *word = yaml_text_word(node);
-	if (node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE) {
+	if (node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE || is_plain(word)) {
 		fputs(word, stream);
 		return true;
 	}

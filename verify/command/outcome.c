@@ -110,6 +110,23 @@ static bool write_particles(const struct simulation *simulation, const char *pat
 	return written;
 }
 
+/* Where the run parts from the same in a finer arithmetic; before it begins, both get one start. */
+static bool compare(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
+					struct simulation_progress *progress, uint64_t *executed)
+{
+	struct touchstone_limits limits = plan->limits;
+	bool anew = outcome->status.events > 0;
+	if (anew && !simulation_begin_anew(simulation, plan->file, outcome->error)) return false;
+	limits.time += simulation->scene.clock;
+	uint64_t then = plan->limits.events < UINT64_MAX ? plan->limits.events : 0;
+	if (!simulation_horizon(simulation, plan->file, plan->against, &limits, progress, *executed + then,
+							&outcome->horizon, outcome->error))
+		return false;
+	outcome->compared = true;
+	*executed += outcome->horizon.events;
+	return true;
+}
+
 /* From a start state to an outcome. */
 static void find(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 				 struct simulation_progress *progress)
@@ -136,8 +153,11 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	outcome->virtual_wall_count = outcome->fluxes ? walls : 0;
 	uint64_t before = 0;
 	bool ready = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
+	if (ready && plan->against && plan->limits.events > 0)
+		ready = compare(outcome, plan, simulation, progress, &before);
+	outcome->failed = *outcome->error;
 	if (ready) measure(outcome, plan, simulation, progress, before);
-	if (plan->xyz) write_particles(simulation, plan->xyz, outcome->error);
+	if (plan->xyz && !outcome->failed) write_particles(simulation, plan->xyz, outcome->error);
 }
 
 void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t seed,

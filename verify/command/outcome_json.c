@@ -115,7 +115,7 @@ static json_t *fluxes_json(const struct outcome *outcome)
 	return list;
 }
 
-static void set_run(json_t *json, const struct outcome *outcome)
+static void set_run(json_t *json, const struct run_plan *plan, const struct outcome *outcome)
 {
 	const struct touchstone_status *status = &outcome->status;
 	json_object_set_new(json, "seed", whole(outcome->seed));
@@ -143,6 +143,7 @@ static void set_run(json_t *json, const struct outcome *outcome)
 	if (outcome->virtual_wall_count) json_object_set_new(json, "fluxes", fluxes_json(outcome));
 	if (outcome->conservation) json_object_set_new(json, "conservation", conservation_json(outcome));
 	if (outcome->three_bodies) json_object_set_new(json, "three_body", three_body_json(&outcome->three_body));
+	if (plan->against) outcome_set_horizon(json, plan, outcome);
 	if (outcome->impact) json_object_set_new(json, "impact", impact_json(outcome->impact));
 }
 
@@ -179,7 +180,7 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 	json_object_set_new(json, "arithmetic", json_string(file->arithmetic));
 	json_object_set_new(json, "bits", json_integer(arithmetic_bits(file->arithmetic)));
 	json_object_set_new(json, "method", json_string(file->method));
-	set_run(json, outcomes);
+	set_run(json, plan, outcomes);
 	json_object_set_new(json, "peak_memory_bytes", whole(outcome_peak_memory()));
 	json_object_set_new(json, "machine", provenance());
 	if (explained) json_object_set(json, "explained", explained);
@@ -187,10 +188,12 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 	json_t *runs = json_array();
 	for (size_t o = 0; o < count; o++) {
 		json_t *run = json_object();
-		set_run(run, &outcomes[o]);
+		set_run(run, plan, &outcomes[o]);
 		json_array_append_new(runs, run);
 	}
 	json_object_set_new(json, "runs", runs);
 	json_object_set_new(json, "together", together_json(outcomes, count));
+	if (plan->against)
+		json_object_set_new(json_object_get(json, "together"), "horizon", outcome_horizons(outcomes, count));
 	return json;
 }

@@ -13,15 +13,16 @@
 #include "figure/figure.h"
 
 const struct figure_entry figures[] = {
-	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide"},
-	{"fig5", "2014, fig. 5: how often three bodies meet, over restitution and density"},
-	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts"},
-	{"ladder", "2014, fig. 5 at 53 bits: how rates of what goes wrong fall with the bits carried"},
-	{NULL, NULL},
+	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide", figure_impact},
+	{"fig5", "2014, fig. 5: how often three bodies meet, over restitution and density", figure_three_body},
+	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts", figure_collapse},
+	{"ladder", "2014, fig. 5 at 53 bits: how rates of what goes wrong fall with the bits carried", figure_ladder},
+	{"horizon", "for how many events per particle a run can be trusted, over the bits it carries", figure_horizon},
+	{"time-and-place", "what late times and far places do to impacts, three-body events and the horizon",
+	 figure_time_place},
+	{0},
 };
-static struct result *(*const makers[])(const struct figure_setup *, char error[512]) = {
-	figure_impact, figure_three_body, figure_collapse, figure_ladder};
-enum { FIGURES = sizeof makers / sizeof *makers };
+enum { FIGURES = sizeof figures / sizeof *figures - 1 };
 
 struct arguments {
 	bool wanted[FIGURES];
@@ -45,7 +46,7 @@ static void want(struct arguments *arguments, const char *name)
 	bool found = false;
 	for (int f = 0; f < FIGURES; f++)
 		if (strcmp(name, "all") == 0 || strcmp(name, figures[f].name) == 0) arguments->wanted[f] = found = true;
-	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, fig5, fig7, ladder, all", name);
+	if (!found) refuse_usage("no figure '%.40s'; accepted: all, or one that `touchstone list figures` has", name);
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -98,7 +99,7 @@ static int make(int f, const struct arguments *arguments)
 		.context = &progress,
 	};
 	double began = progress_clock();
-	struct result *result = makers[f](&setup, error);
+	struct result *result = figures[f].make(&setup, error);
 	progress_end(&progress);
 	if (!result) return refuse("%s: %s", figures[f].name, error);
 	snprintf(command, sizeof command, "touchstone reproduce %s %s --seed %" PRIu64, figures[f].name,
@@ -122,8 +123,7 @@ int command_reproduce(int argc, char **argv)
 		.parser = parse,
 		.args_doc = "FIGURE... | all",
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
-			   "Figures: fig3 (separations at impact), fig5 (three-body events), fig7 (the bouncing ball), "
-			   "ladder (rates over the bits carried).\n"
+			   "Figures: all, or those that `touchstone list figures` has.\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
 			   "incomplete.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",

@@ -19,6 +19,11 @@ static void enter(struct impact_histogram *histogram, double steps, double exces
 	histogram->bar[IMPACT_REACH + (int)bar]++;
 	histogram->below += excess < 0;
 	histogram->above += excess > 0;
+	int doublings;
+	frexp(excess, &doublings);
+	histogram->doubling[!(excess < 0)][doublings < 0                  ? 0
+									   : doublings < IMPACT_DOUBLINGS ? doublings
+																	  : IMPACT_DOUBLINGS - 1]++;
 	histogram->sum += excess;
 	histogram->sum_of_squares += excess * excess;
 	histogram->least = fmin(histogram->least, excess);
@@ -71,6 +76,8 @@ void impact_see(void *context, struct touchstone_engine *engine, const struct to
 static void histogram_merge(struct impact_histogram *into, const struct impact_histogram *from)
 {
 	for (int bar = 0; bar <= 2 * IMPACT_REACH; bar++) into->bar[bar] += from->bar[bar];
+	for (int side = 0; side < 2; side++)
+		for (int k = 0; k < IMPACT_DOUBLINGS; k++) into->doubling[side][k] += from->doubling[side][k];
 	into->below += from->below;
 	into->above += from->above;
 	into->sum += from->sum;
