@@ -246,7 +246,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	bool made = set_species_and_walls(engine, scene) && set_potentials(engine, scene) &&
 				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
 	if (made) {
-		set_policy(engine, scene);
+		read_policy(engine, scene);
 		engine->slack = slack_needed(engine, 0, typical_speed(engine));
 		made = (engine->count < 2 || lay_out_cells(engine)) && read_states(engine);
 		read_sides(engine);
