@@ -182,8 +182,10 @@ static void tell(struct result *result, const struct ladder *ladder)
 				"Gases settle for 20 elastic and, where they are inelastic, 20 inelastic collisions per particle "
 				"before counting. A gas that collapses is followed by another start state; its last ten to twenty "
 				"collisions per particle are dropped.");
-	result_note(result,
-				"The stable method never halts: the column is there for other methods' sake, and it has been looked.");
+	result_note(
+		result,
+		"The stable method has an answer for every state, so that no gas halted; the column shows that this was "
+		"looked at.");
 }
 
 struct result *figure_ladder(const struct figure_setup *setup, char error[512])
