@@ -248,7 +248,7 @@ static void every_kind_takes_every_style(void **state)
 {
 	(void)state;
 	static const char *const kinds[] = {"impact-histogram", "trajectory", "scaling", "curves", "bars",
-										"frontier",         "discs"};
+										"frontier",         "discs",      "map"};
 	static const char *const columns[] = {"left",  "right", "height", "time",  "remaining", "bits",
 										  "error", "x",     "y",      "low",   "high",      "category",
 										  "value", "best",  "radius", "speed", "touched",   NULL};
@@ -257,13 +257,13 @@ static void every_kind_takes_every_style(void **state)
 									  {2, 4, 0.25, 1, 1, 24, 0.01, 2, 4, 3, 6, 1, 4, 0, 0.5, 1, 0}};
 	char *in = folder_new(), *out = folder_new();
 	struct result *result = result_new("r", "R");
-	for (unsigned i = 0; i < 28; i++) {
+	for (unsigned i = 0; i < 32; i++) {
 		char name[20];
 		snprintf(name, sizeof name, "f%u", i);
 		const unsigned bases[] = {0, 10, 2};
 		struct figure_axis axis = {.label = "axis", .logarithmic = bases[i % 3]};
 		struct result_figure figure = result_figure(result, &(struct figure_frame){.name = name,
-																				   .kind = kinds[i % 7],
+																				   .kind = kinds[i % 8],
 																				   .title = name,
 																				   .caption = "",
 																				   .alternative = "",
@@ -271,13 +271,13 @@ static void every_kind_takes_every_style(void **state)
 																				   .y = axis,
 																				   .columns = columns,
 																				   .categories = categories});
-		struct figure_series series = figure_series(figure, "alone", (enum series_style)(i / 7));
+		struct figure_series series = figure_series(figure, "alone", (enum series_style)(i / 8));
 		series_row(series, rows[0]), series_row(series, rows[1]);
 	}
 	put(result, in);
 	assert_true(report_write(in, out, error));
 	assert_string_equal(error, "");
-	assert_int_equal(folder_count(out, ".svg"), 28);
+	assert_int_equal(folder_count(out, ".svg"), 32);
 	folder_remove(in), folder_remove(out);
 }
 
