@@ -82,6 +82,11 @@ void touchstone_state(const struct touchstone_engine *engine, uint32_t particle,
 	unit_of(engine)->state(engine, particle, position, velocity);
 }
 
+double touchstone_temperature(const struct touchstone_engine *engine, uint32_t particle)
+{
+	return unit_of(engine)->temperature(engine, particle);
+}
+
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 						  double contact[TOUCHSTONE_MOST_TERMS])
 {

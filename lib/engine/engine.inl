@@ -10,6 +10,7 @@
 #include "engine/pairs.h"
 #include "engine/sieve.h"
 #include "scene/potential.h"
+#include "scene/random.h"
 #include "touchstone.h"
 #include "unit/unit.h"
 
@@ -56,6 +57,8 @@ extern const struct unit THIS_UNIT;
 #include "engine/search.inl"
 
 #include "engine/collide.inl"
+
+#include "engine/convection.inl"
 #include "engine/crossing.inl"
 #include "engine/layout.inl"
 #include "engine/step.inl"
