@@ -18,7 +18,7 @@ CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
 LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
 
-sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*')
+sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/live/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 BENCH    := verify/bench/main.c
@@ -30,6 +30,14 @@ TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/t
 PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
 	$(BUILD)/plugins/example_cxx.so
 
+# The live page: the library without MPFR, its cases and the page's engine, compiled for the web.
+LIVE     := convection discs bouncing-ball column cradle three-body
+web       = $(patsubst %.c,$(BUILD)/web/%.o,$(1))
+WEB      := $(call web,lib/arithmetic.c $(wildcard lib/engine/*.c lib/scene/*.c) \
+	$(patsubst %,lib/unit/%.c,short binary32 binary64 twin) $(filter-out %/recipes.c,$(wildcard verify/live/*.c)))
+WEBFLAGS := --target=wasm32-wasi -msimd128 -std=gnu17 -O3 $(WARNINGS) -ffp-contract=off -fno-math-errno
+
+.PHONY: live live-test
 .PHONY: all report test bench check soak sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -138,6 +146,30 @@ $(BUILD)/plugins/%_cxx.so: verify/test/plugins/%.c lib/touchstone.h
 	$(call say,plug-in $@) g++ -x c++ -std=c++11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
 
 $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
+	@mkdir -p $(@D)
+	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)
+
+live:
+	@.ci/setup live
+	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/live.html
+	@echo "built $(BUILD)/live.html ($$(du -k $(BUILD)/live.html | cut -f1) kB): open it in a browser"
+
+$(BUILD)/live.html: $(BUILD)/live.wasm reports/live/assemble $(wildcard reports/live/*.*)
+	$(call say,assemble $@) reports/live/assemble $< >$@.aside && mv $@.aside $@
+
+$(BUILD)/live.wasm: $(WEB)
+	$(call say,link $@) clang $(WEBFLAGS) -mexec-model=reactor -Wl,--strip-all -o $@ $^
+
+$(BUILD)/web/%.o: %.c
+	@mkdir -p $(@D)
+	$(call say,compile $< for the web) clang $(WEBFLAGS) -Ilib -I$(BUILD)/web -DTOUCHSTONE_WITHOUT_MPFR -D_GNU_SOURCE \
+		-MMD -MP -c -o $@ $<
+
+$(BUILD)/web/verify/live/live.o: $(BUILD)/web/recipes.inl
+$(BUILD)/web/recipes.inl: $(BUILD)/web/recipes $(patsubst %,cases/%.yaml,$(LIVE))
+	$(call say,write $@) $< $(filter %.yaml,$^) >$@.aside && mv $@.aside $@
+
+$(BUILD)/web/recipes: verify/live/recipes.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)
 

@@ -6,8 +6,12 @@
 
 #include "unit/unit.h"
 
+#ifdef TOUCHSTONE_WITHOUT_MPFR /* nor with numbers of the compiler's own */
+static const struct unit *const units[] = {&unit_short, &unit_binary32, &unit_binary64, &unit_twin};
+#else
 static const struct unit *const units[] = {&unit_short,     &unit_binary32, &unit_binary64, &unit_extended, &unit_twin,
 										   &unit_binary128, &unit_mpfr2,    &unit_mpfr4,    &unit_mpfr16};
+#endif
 enum { UNITS = sizeof units / sizeof *units };
 
 /* Finds the unit for "name" or "name:bits" and sets the thread's working precision to it. */

@@ -32,7 +32,6 @@ extern const struct unit THIS_UNIT;
 #include "finder/finder.inl"
 
 #include "finder/batch.h"
-#include "method/exact_time.h"
 #include "method/stable.inl"
 
 #include "method/compensated.inl"
@@ -40,7 +39,10 @@ extern const struct unit THIS_UNIT;
 #include "method/kahan.inl"
 #include "method/naive.inl"
 #include "method/numerical_recipes.inl"
+#ifndef TOUCHSTONE_WITHOUT_MPFR
+#include "method/exact_time.h"
 #include "method/rounded.inl"
+#endif
 #include "method/sterbenz.inl"
 #include "method/textbook_epsilon.inl"
 

@@ -22,7 +22,9 @@ enum {
 	NAIVE,
 	GUARDED,
 	COMPENSATED,
+#ifndef TOUCHSTONE_WITHOUT_MPFR
 	ROUNDED,
+#endif
 	NUMERICAL_RECIPES,
 	KAHAN,
 	STERBENZ,
@@ -38,8 +40,10 @@ static const struct method methods[METHODS] = {
 				 guarded_claim},
 	[COMPENSATED] = {"compensated", SIEVE_ORDER, compensated_ball_ball, compensated_ball_leave, compensated_ball_plane,
 					 stable_half_space, compensated_claim},
+#ifndef TOUCHSTONE_WITHOUT_MPFR
 	[ROUNDED] = {"rounded", SIEVE_ORDER, rounded_ball_ball, rounded_ball_leave, rounded_ball_plane, rounded_half_space,
 				 rounded_claim},
+#endif
 	[NUMERICAL_RECIPES] = {.name = "numerical-recipes",
 						   .ball_ball = numerical_recipes_ball_ball,
 						   .ball_leave = numerical_recipes_ball_leave},
