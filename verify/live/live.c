@@ -133,6 +133,24 @@ EXPORT(live_periodic) int live_periodic(int number, int axis)
 	return panes[number].scene.periodic[axis];
 }
 
+/* Walls on a line: they are drawn where they stand. */
+EXPORT(live_wall_count) int live_wall_count(int number)
+{
+	return panes[number].scene.dimensions == 1 ? (int)panes[number].scene.wall_count : 0;
+}
+
+EXPORT(live_wall) double live_wall(int number, int wall)
+{
+	return panes[number].scene.walls[wall].point[0];
+}
+
+EXPORT(live_time) double live_time(int number)
+{
+	struct touchstone_status status;
+	touchstone_status(panes[number].engine, &status);
+	return status.time;
+}
+
 static void see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
 {
 	(void)engine;
