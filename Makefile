@@ -5,6 +5,7 @@
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
 #   make soak              10^9 answers of the correctly rounded finder against the exact oracle; QUESTIONS=1e7 for fewer
 #   make CC=clang          another compiler               make BUILD=build/other   another place
+#   make live              the convection scene in a browser: build/live.html, one file; make live-test drives it in Chromium
 #   make clean, make format
 
 BUILD    := build
@@ -153,6 +154,13 @@ live:
 	@.ci/setup live
 	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/live.html
 	@echo "built $(BUILD)/live.html ($$(du -k $(BUILD)/live.html | cut -f1) kB): open it in a browser"
+
+# The page in a browser without a window; where there is none it is skipped, which is said.
+live-test: $(BUILD)/live.html $(BUILD)/touchstone $(BUILD)/page_check
+	@if $(BUILD)/page_check $(BUILD)/touchstone $(BUILD)/live.html; then :; else told=$$?; [ $$told = 77 ] || exit $$told; fi
+
+$(BUILD)/page_check: $(wildcard verify/live/test/*.c) verify/live/test/browser.h
+	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c,$^) -lcmocka -lcurl -ljansson
 
 $(BUILD)/live.html: $(BUILD)/live.wasm reports/live/assemble $(wildcard reports/live/*.*)
 	$(call say,assemble $@) reports/live/assemble $< >$@.aside && mv $@.aside $@

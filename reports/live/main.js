@@ -86,7 +86,7 @@ function start(query) {
 	started = false;
 	busy = true;
 	frames = [];
-	document.documentElement.dataset.longest = 0;
+	document.documentElement.dataset.longest = document.documentElement.dataset.work = 0;
 	const { panes, index, width, height, nitems, seed } = settings;
 	worker.postMessage({ type: "start", panes, scene: index, width, height, nitems, seed });
 }
@@ -139,7 +139,7 @@ function picture(message) {
 	at("pace").textContent = message.arrived ? "" : "slower than asked: the engine takes longer than a picture";
 }
 
-function show_picture(now) {
+function showPicture(now) {
 	if (!fresh) return;
 	fresh = false;
 	latest.views.forEach(({ discs }, p) => {
@@ -158,12 +158,14 @@ function show_picture(now) {
 
 function frame(now) {
 	requestAnimationFrame(frame);
+	const begun = performance.now();
 	if (playing && !document.hidden) frames.push(now);
 	if (frames.length > 120) frames.shift();
 	const root = document.documentElement.dataset, longest = frames.reduce((most, t, k) => k ? Math.max(most, t - frames[k - 1]) : 0, 0);
 	root.longest = Math.max(root.longest || 0, frames.length > 60 ? longest : 0).toFixed(1);
 	root.rate = frames.length > 1 ? (1000 * (frames.length - 1) / (frames.at(-1) - frames[0])).toFixed(1) : "";
-	show_picture(now);
+	showPicture(now);
+	root.work = Math.max(root.work || 0, performance.now() - begun).toFixed(1);
 	if (!playing || busy || !started) return;
 	busy = true;
 	worker.postMessage({ type: "go", span: settings.rate * 2 ** settings.speed, most: settings.events });
