@@ -94,7 +94,7 @@ function start(query) {
 // How the box lies on the canvas: as it is, or a line across it or up it.
 function makeWorld({ box, periodic, walls }) {
 	const line = settings.scene.dimensions === 1, upright = settings.scene.upright, long = box[0];
-	world = line ? upright ? { width: Math.max(3, long / 3), height: long } : { width: long, height: Math.max(3, long / 6) }
+	world = line ? upright ? { width: Math.max(3, long / 3), height: long } : { width: long, height: Math.max(1.6, long / 6) }
 		: { width: box[0], height: box[1] };
 	Object.assign(world, { periodic: periodic[0] && !line, upright: line && upright });
 	[0, 1].forEach(p => {
