@@ -8,6 +8,7 @@
 #   make live              the convection scene in a browser: build/live.html, one file; make live-test drives it in Chromium
 #   make clean, make format
 
+VERSION  := 0.1
 BUILD    := build
 CORES    := $(shell nproc)
 BASELINE  = $(BUILD)/bench-baseline.json
@@ -19,7 +20,8 @@ CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
 LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
 
-sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/live/*')
+sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*' \
+	-not -path '*/live/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 BENCH    := verify/bench/main.c
@@ -27,23 +29,19 @@ LIBRARY  := $(call objects,$(call sources,lib))
 PARTS    := $(call objects,$(filter-out $(MAIN) $(BENCH),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
 
+# Campaigns on several machines: a module that is loaded by programs which mpirun launched, and by no others.
+MPICC    := $(shell command -v mpicc)
+MPI      := $(if $(MPICC),$(BUILD)/touchstone-mpi.so)
+
 # Finders by others: the worked example, as C11 and as C++, and some that do everything wrong.
 PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
 	$(BUILD)/plugins/example_cxx.so
 
-# The live page: the library without MPFR, its cases and the page's engine, compiled for the web.
-LIVE     := convection discs bouncing-ball column cradle three-body
-web       = $(patsubst %.c,$(BUILD)/web/%.o,$(1))
-WEB      := $(call web,lib/arithmetic.c $(wildcard lib/engine/*.c lib/scene/*.c) \
-	$(patsubst %,lib/unit/%.c,short binary32 binary64 twin) $(filter-out %/recipes.c,$(wildcard verify/live/*.c)))
-WEBFLAGS := --target=wasm32-wasi -msimd128 -std=gnu17 -O3 $(WARNINGS) -ffp-contract=off -fno-math-errno
-
-.PHONY: live live-test
 .PHONY: all report test bench check soak sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(BUILD)/touchstone
+all: $(BUILD)/touchstone $(MPI)
 	@echo "built $<; next: '$< list', '$< run cases/hard-spheres.yaml', 'make report' or 'make test'"
 
 report:
@@ -109,7 +107,8 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart bench/main): CPPFLAGS += \
+$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart bench/main \
+	campaign/piece_store): CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
 # Where the cases are when there are none in the folder one works in.
@@ -119,6 +118,12 @@ $(BUILD)/object/verify/command/cases.o: CPPFLAGS += $(cases_folder)
 # Templates and plot scripts are part of the program.
 $(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
 $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
+
+# One set of objects for the program, the archive and the shared library, which shows what touchstone.h declares.
+# Measured by size and by the counts of each instruction: the code of binary64 and of the sieve is the same without.
+$(LIBRARY): CFLAGS += -fPIC -fvisibility=hidden -fno-semantic-interposition
+
+$(call objects,$(MAIN)): CPPFLAGS += -DTOUCHSTONE_VERSION='"$(VERSION)"'
 
 # The sieve's bound holds whether products and sums are fused or not; fused is faster.
 $(BUILD)/object/lib/engine/sieve.o: CFLAGS += -ffp-contract=fast
@@ -130,12 +135,16 @@ $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize
 $(BUILD)/object/lib/finder/batch.o: CFLAGS += -fno-trapping-math
 
 $(BUILD)/%_test: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"' -DTOUCHSTONE_PLUGINS='"$(BUILD)/plugins"' \
-	-DTOUCHSTONE_BENCH='"$(BUILD)/bench"' $(cases_folder)
+	-DTOUCHSTONE_BENCH='"$(BUILD)/bench"' -DTOUCHSTONE_MPI='"$(BUILD)/touchstone-mpi.so"' $(cases_folder)
 $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
 
-$(TESTS): | $(PLUGINS) $(BUILD)/bench
+$(TESTS): | $(PLUGINS) $(BUILD)/bench $(MPI)
+
+$(BUILD)/touchstone-mpi.so: verify/mpi/ranks_mpi.c verify/campaign/ranks.h
+	@mkdir -p $(@D)
+	$(call say,module $@) OMPI_CC='$(CC)' $(MPICC) -std=gnu17 -O2 $(WARNINGS) -shared -fPIC -Iverify -o $@ $<
 
 # As a stranger would compile them: against lib/touchstone.h alone.
 $(BUILD)/plugins/%.so: verify/test/plugins/%.c lib/touchstone.h
@@ -150,36 +159,8 @@ $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)
 
-live:
-	@.ci/setup live
-	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/live.html
-	@echo "built $(BUILD)/live.html ($$(du -k $(BUILD)/live.html | cut -f1) kB): open it in a browser"
-
-# The page in a browser without a window; where there is none it is skipped, which is said.
-live-test: $(BUILD)/live.html $(BUILD)/touchstone $(BUILD)/page_check
-	@if $(BUILD)/page_check $(BUILD)/touchstone $(BUILD)/live.html; then :; else told=$$?; [ $$told = 77 ] || exit $$told; fi
-
-$(BUILD)/page_check: $(wildcard verify/live/test/*.c) verify/live/test/browser.h
-	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c,$^) -lcmocka -lcurl -ljansson
-
-$(BUILD)/live.html: $(BUILD)/live.wasm reports/live/assemble $(wildcard reports/live/*.*)
-	$(call say,assemble $@) reports/live/assemble $< >$@.aside && mv $@.aside $@
-
-$(BUILD)/live.wasm: $(WEB)
-	$(call say,link $@) clang $(WEBFLAGS) -mexec-model=reactor -Wl,--strip-all -o $@ $^
-
-$(BUILD)/web/%.o: %.c
-	@mkdir -p $(@D)
-	$(call say,compile $< for the web) clang $(WEBFLAGS) -Ilib -I$(BUILD)/web -DTOUCHSTONE_WITHOUT_MPFR -D_GNU_SOURCE \
-		-MMD -MP -c -o $@ $<
-
-$(BUILD)/web/verify/live/live.o: $(BUILD)/web/recipes.inl
-$(BUILD)/web/recipes.inl: $(BUILD)/web/recipes $(patsubst %,cases/%.yaml,$(LIVE))
-	$(call say,write $@) $< $(filter %.yaml,$^) >$@.aside && mv $@.aside $@
-
-$(BUILD)/web/recipes: verify/live/recipes.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
-	@mkdir -p $(@D)
-	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)
+include .ci/install.mk
+include .ci/live.mk
 
 format:
 	clang-format -i $$(git ls-files '*.c' '*.h' '*.inl')

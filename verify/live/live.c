@@ -153,9 +153,8 @@ EXPORT(live_time) double live_time(int number)
 
 static void see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
 {
-	(void)engine;
 	struct pane *pane = context;
-	witness_see(&pane->witness, event);
+	witness_see(&pane->witness, engine, event);
 	if (panes[1].engine) sequence_enter(&sequence, pane == &panes[1], event);
 }
 
@@ -241,6 +240,7 @@ EXPORT(live_look) float *live_look(int number)
 		(double)(status.digest & UINT32_MAX),
 		(double)count,
 		(double)status.memory,
+		(double)witness->three_body.events,
 	};
 	memcpy(pane->count, counts, sizeof counts);
 	return pane->view;

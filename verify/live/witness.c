@@ -18,7 +18,7 @@ bool witness_begin(struct witness *witness, size_t particles, int bits)
 		.inside = malloc(particles * sizeof *witness->inside),
 		.count = (uint32_t)particles,
 	};
-	if (!witness->met || !witness->inside) return false;
+	if (!witness->met || !witness->inside || !three_body_begin(&witness->three_body, particles)) return false;
 	for (uint32_t p = 0; p < particles; p++) witness->met[p] = witness->inside[p] = nobody;
 	return true;
 }
@@ -28,6 +28,7 @@ void witness_end(struct witness *witness)
 	free(witness->met);
 	free(witness->inside);
 	witness->met = witness->inside = NULL;
+	three_body_end(&witness->three_body);
 }
 
 static void fail(struct witness *witness, double time)
@@ -41,9 +42,10 @@ void witness_stop(struct witness *witness, double time)
 	if (isnan(witness->first_sight)) witness->first_sight = time;
 }
 
-void witness_see(struct witness *witness, const struct touchstone_event *event)
+void witness_see(struct witness *witness, struct touchstone_engine *engine, const struct touchstone_event *event)
 {
 	uint32_t first = event->first, second = event->second;
+	three_body_see(&witness->three_body, engine, event);
 	witness->log[witness->seen++ % WITNESS_LOG] = *event;
 	if (event->time < witness->last_time) witness->backwards++;
 	witness->last_time = event->time;

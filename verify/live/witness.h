@@ -7,6 +7,7 @@
 #ifndef VERIFY_WITNESS_H
 #define VERIFY_WITNESS_H
 
+#include "measure/three_body.h"
 #include "scene/spatial_hash.h"
 #include "touchstone.h"
 
@@ -22,6 +23,7 @@ struct witness {
 	double deepest, deepest_ever;      /* depth over contact distance */
 	double first_failure, first_sight; /* times; NaN: not yet */
 	double last_time;
+	struct three_body three_body;
 	uint64_t seen;                            /* events */
 	struct touchstone_event log[WITNESS_LOG]; /* the last of them, event k at k modulo WITNESS_LOG */
 	uint32_t *met;                            /* per particle: whom it met last */
@@ -34,7 +36,7 @@ bool witness_begin(struct witness *witness, size_t particles, int bits);
 void witness_end(struct witness *witness);
 
 /* Sees an event. */
-void witness_see(struct witness *witness, const struct touchstone_event *event);
+void witness_see(struct witness *witness, struct touchstone_engine *engine, const struct touchstone_event *event);
 
 /* Looks for overlaps among particles at their places now, which is `time`; depth[p] receives how deep p is inside
  * another one, over their contact distance, or 0 where rounding explains it. False when there is no memory. */
