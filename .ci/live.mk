@@ -1,7 +1,7 @@
 # The live page: the library without MPFR, its cases and the page's engine, compiled for the web.
 LIVE     := convection discs bouncing-ball column cradle three-body
 web       = $(patsubst %.c,$(BUILD)/web/%.o,$(1))
-WEB      := $(call web,lib/arithmetic.c $(wildcard lib/engine/*.c lib/scene/*.c) \
+WEB      := $(call web,lib/arithmetic.c $(wildcard lib/engine/*.c lib/overlap/*.c lib/scene/*.c) \
 	$(patsubst %,lib/unit/%.c,short binary32 binary64 twin) verify/measure/three_body.c $(filter-out %/recipes.c,$(wildcard verify/live/*.c)))
 WEBFLAGS := --target=wasm32-wasi -msimd128 -std=gnu17 -O3 $(WARNINGS) -ffp-contract=off -fno-math-errno
 
