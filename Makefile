@@ -21,7 +21,7 @@ CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
 
 sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*' \
-	-not -path '*/live/*')
+	-not -path '*/live/live.c' -not -path '*/live/recipes.c')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 BENCH    := verify/bench/main.c
@@ -53,7 +53,7 @@ report:
 test:
 	@.ci/setup
 	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone $(TESTS)
-	@$(MAKE) --no-print-directory check digests sanitize
+	@$(MAKE) --no-print-directory check digests live-test sanitize
 
 # Every test program, from this folder, as many at a time as there are cores; each tells its tale when it has ended.
 check: $(BUILD)/touchstone $(TESTS)

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "live/sequence.h"
+#include "live/witness.h"
 #include "scene/scene.h"
-#include "sequence.h"
 #include "touchstone.h"
-#include "witness.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 

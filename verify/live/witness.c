@@ -1,4 +1,4 @@
-#include "witness.h"
+#include "live/witness.h"
 
 #include <math.h>
 #include <stdlib.h>
