@@ -40,11 +40,16 @@ extern const struct unit THIS_UNIT;
 #include "method/kahan.inl"
 #include "method/naive.inl"
 #include "method/numerical_recipes.inl"
+#include "method/rewind.inl"
 #ifndef TOUCHSTONE_WITHOUT_MPFR
 #include "method/exact_time.h"
 #include "method/rounded.inl"
 #endif
+#include "method/search.inl"
+#include "method/shrink.inl"
+#include "method/skip.inl"
 #include "method/sterbenz.inl"
+#include "method/tc.inl"
 #include "method/textbook_epsilon.inl"
 
 #include "finder/methods.inl"
@@ -59,12 +64,14 @@ extern const struct unit THIS_UNIT;
 
 #include "engine/search.inl"
 
+#include "engine/policy.inl"
+
 #include "engine/collide.inl"
 
 #include "engine/convection.inl"
 #include "engine/crossing.inl"
-#include "engine/overlaps.inl"
 #include "engine/layout.inl"
+#include "engine/overlaps.inl"
 #include "engine/step.inl"
 
 #include "engine/rescale.inl"

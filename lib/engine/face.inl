@@ -197,6 +197,7 @@ static void engine_explain(const struct touchstone_engine *engine, void (*line)(
 	explain_states(engine, line, context);
 	if (engine->temperature) line(context, "convection: particles carry heat, and collisions kick them by it");
 	if (engine->thermostat > 0) line(context, "walls: thermal, velocities drawn from particle and time of the event");
+	explain_policy(engine, line, context);
 }
 
 const struct unit THIS_UNIT = {

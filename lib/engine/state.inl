@@ -142,6 +142,12 @@ struct touchstone_engine {
 	num kick, neutral; /* of convection */
 	double thermostat; /* kT of thermal walls; 0: walls are not thermal */
 
+	/* what the method's policy needs (policy.inl) */
+	num contact_time,
+		margin;           /* of POLICY_BRIEF_ELASTIC, and of POLICY_EARLY: how much farther contacts are looked for */
+	double search_part;   /* of POLICY_SEARCH: first step, as a part of the contact distance */
+	struct moment latest; /* that the run has come to, where it may go back */
+
 	/* virtual walls; side and crossed are NULL without */
 	size_t virtual_wall_count;
 	struct virtual_wall *virtual_wall;

@@ -8,6 +8,14 @@ enum sieving {
 	SIEVE_ORDER,  /* and those that surely meet later than another pair */
 };
 
+/* What the engine does under a method besides asking its finder (engine/policy.inl). */
+enum policy {
+	POLICY_BACKWARDS = 1 << 0,     /* an event before now is executed: the run goes back */
+	POLICY_SEARCH = 1 << 1,        /* an event that finds its bodies overlapped is moved back to where they do not */
+	POLICY_EARLY = 1 << 2,         /* contacts are looked for at a slightly larger distance */
+	POLICY_BRIEF_ELASTIC = 1 << 3, /* soon after a collision no energy is lost */
+};
+
 struct method {
 	const char *name;
 	enum sieving sieve;
@@ -15,6 +23,7 @@ struct method {
 	plane_finder *ball_plane;
 	half_space_finder *half_space;
 	claim_maker *claim; /* what the method's file claims; NULL: nothing */
+	unsigned policy;    /* of enum policy */
 };
 
 enum {
@@ -25,6 +34,11 @@ enum {
 #ifndef TOUCHSTONE_WITHOUT_MPFR
 	ROUNDED,
 #endif
+	REWIND,
+	SKIP,
+	SEARCH,
+	SHRINK,
+	TC,
 	NUMERICAL_RECIPES,
 	KAHAN,
 	STERBENZ,
@@ -34,16 +48,34 @@ enum {
 
 static const struct method methods[METHODS] = {
 	[STABLE] = {"stable", SIEVE_ORDER, stable_ball_ball, stable_ball_leave, stable_ball_plane, stable_half_space,
-				stable_claim},
-	[NAIVE] = {"naive", SIEVE_MISSES, naive_ball_ball, naive_ball_leave, naive_ball_plane, naive_half_space, NULL},
+				stable_claim, 0},
+	[NAIVE] = {"naive", SIEVE_MISSES, naive_ball_ball, naive_ball_leave, naive_ball_plane, naive_half_space, NULL, 0},
 	[GUARDED] = {"guarded", SIEVE_MISSES, guarded_ball_ball, guarded_ball_leave, guarded_ball_plane, guarded_half_space,
-				 guarded_claim},
+				 guarded_claim, 0},
 	[COMPENSATED] = {"compensated", SIEVE_ORDER, compensated_ball_ball, compensated_ball_leave, compensated_ball_plane,
-					 stable_half_space, compensated_claim},
+					 stable_half_space, compensated_claim, 0},
 #ifndef TOUCHSTONE_WITHOUT_MPFR
 	[ROUNDED] = {"rounded", SIEVE_ORDER, rounded_ball_ball, rounded_ball_leave, rounded_ball_plane, rounded_half_space,
-				 rounded_claim},
+				 rounded_claim, 0},
 #endif
+	[REWIND] = {.name = "rewind",
+				.ball_ball = naive_ball_ball,
+				.ball_plane = naive_ball_plane,
+				.policy = POLICY_BACKWARDS},
+	[SKIP] = {.name = "skip", .sieve = SIEVE_MISSES, .ball_ball = skip_ball_ball, .ball_plane = skip_ball_plane},
+	[SEARCH] = {.name = "search",
+				.ball_ball = naive_ball_ball,
+				.ball_plane = naive_ball_plane,
+				.policy = POLICY_SEARCH},
+	[SHRINK] = {.name = "shrink",
+				.ball_ball = shrink_ball_ball,
+				.ball_plane = shrink_ball_plane,
+				.policy = POLICY_EARLY},
+	[TC] = {.name = "tc",
+			.sieve = SIEVE_ORDER,
+			.ball_ball = stable_ball_ball,
+			.ball_plane = stable_ball_plane,
+			.policy = POLICY_BRIEF_ELASTIC},
 	[NUMERICAL_RECIPES] = {.name = "numerical-recipes",
 						   .ball_ball = numerical_recipes_ball_ball,
 						   .ball_leave = numerical_recipes_ball_leave},
@@ -54,11 +86,16 @@ static const struct method methods[METHODS] = {
 
 static const struct method *find_method(const char *name, char error[160])
 {
-	char known[112] = "";
-	for (int m = 0; m < METHODS; m++) {
+	for (int m = 0; m < METHODS; m++)
 		if (strcmp(methods[m].name, name) == 0) return &methods[m];
-		snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", m ? ", " : "", methods[m].name);
+	snprintf(error, 160, "no method '%.20s'; known are", name);
+	for (int m = 0; m < METHODS; m++) {
+		size_t used = strlen(error), room = 160 - used;
+		if (strlen(methods[m].name) + sizeof " and more" + 1 > room) {
+			snprintf(error + used, room, " and more");
+			break;
+		}
+		snprintf(error + used, room, "%s %s", m ? "," : "", methods[m].name);
 	}
-	snprintf(error, 160, "no method '%.20s'; known are %.110s", name, known);
 	return NULL;
 }

@@ -245,6 +245,9 @@ bool scene_build(const struct scene_recipe *asked, uint64_t seed, struct touchst
 		.search = asked->search,
 		.cell = asked->cell,
 		.clock = asked->clock,
+		.contact_time = asked->contact_time,
+		.shrinking = asked->shrinking,
+		.search_step = asked->search_step,
 	};
 	if (!check_recipe(asked, error)) return false;
 	struct scene_recipe within = within_packing(asked), *recipe = &within;
