@@ -16,7 +16,7 @@ WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
 CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp -Wno-psabi $(EXTRA)
 CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
-LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
+LDLIBS   := -lhdf5_serial -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
 
 sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
@@ -106,6 +106,9 @@ $(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/
 # Where the cases are when there are none in the folder one works in.
 cases_folder := -DTOUCHSTONE_CASES='"$(CURDIR)/cases"'
 $(BUILD)/object/verify/command/cases.o: CPPFLAGS += $(cases_folder)
+
+# Debian keeps HDF5's headers apart, one folder for each way of building it.
+$(BUILD)/object/verify/store/checkpoint_tree.o: CPPFLAGS += -isystem /usr/include/hdf5/serial
 
 # Templates and plot scripts are part of the program.
 $(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)

@@ -202,17 +202,21 @@ static const struct touchstone_field *find_field(const struct touchstone_snapsho
 	return NULL;
 }
 
-/* Whether a particle is where a search can go on from. */
+/* Whether a particle is where a search can go on from: along a periodic axis, near its box. */
 static bool body_makes_sense(const struct touchstone_engine *engine, uint32_t i)
 {
-	static const double most_boxes = 64, most_places = 0x1p30;
+	static const int most_boxes = 64, most_places = 1 << 30;
 	const struct body *body = &engine->body[i];
 	bool sound = is_finite(body->time) && fabs(body->page) < INFINITY;
-	for (int axis = 0; sound && axis < engine->dimensions; axis++) {
-		double coordinate = coordinate_now(engine, i, axis);
-		sound = is_finite(body->position[axis]) && is_finite(body->velocity[axis]) && isfinite(coordinate) &&
-				fabs((double)engine->place[i].index[axis]) < most_places &&
-				(!engine->periodic[axis] || fabs(coordinate) < most_boxes * engine->box[axis]);
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		int32_t place = engine->place[i].index[axis];
+		sound &= place > -most_places && place < most_places;
+		if (engine->periodic[axis]) sound &= fabs(coordinate_now(engine, i, axis)) < most_boxes * engine->box[axis];
+	}
+	for (size_t w = 0; w < engine->virtual_wall_count; w++) {
+		int32_t side = engine->side[i * engine->virtual_wall_count + w];
+		bool repeated = engine->virtual_wall[w].axis >= 0;
+		sound &= repeated ? side >= -most_boxes && side <= most_boxes : side == 0 || side == -1;
 	}
 	return sound;
 }

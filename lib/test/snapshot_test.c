@@ -41,7 +41,7 @@ static struct scene_recipe draw_scene(int kind, struct drawn *drawn, struct rand
 	case BALL:
 		recipe = given(3, 1, ball);
 		recipe.acceleration[2] = -1;
-		recipe.boundary_restitution.coefficient = 0.9;
+		recipe.boundary_restitution.coefficient = 0.3 + 0.6 * random_uniform(random);
 		break;
 	case COLUMN:
 		recipe = gas(1 + (int)random_below(random, 2), 12, 0.4);
@@ -108,44 +108,44 @@ static void interrupt(struct run *run, const char *arithmetic, const char *metho
 static void a_stop_changes_nothing(void **state)
 {
 	(void)state;
-	enum { EVENTS = 900, STOPS = 3 };
+	enum { STOPS = 3 };
 	struct random_state random = random_seed(SEED);
 	print_message("seed %d\n", SEED);
 	int stops = 0, ended[TOUCHSTONE_DIVERGED + 1] = {0};
-	for (int trial = 0; trial < (brief ? 30 : 150); trial++) {
+	for (int trial = 0; trial < (brief ? 12 : 40); trial++) {
 		struct drawn drawn;
 		int kind = trial % 2 ? STEPPED : trial / 2 % KINDS;
 		struct scene_recipe recipe = draw_scene(kind, &drawn, &random);
 		const char *arithmetic = arithmetics[random_below(&random, ARITHMETICS)];
-		const char *method = touchstone_method_name(random_below(&random, 3) ? 0 : random_below(&random, 5));
+		const char *method = touchstone_method_name(trial % 3 ? 0 : 1 + random_below(&random, 4));
+		uint64_t events = recipe.particle_count < 20 ? 1500 : 300;
 		struct run whole = begin(&recipe, arithmetic, method), broken = begin(&recipe, arithmetic, method);
-		struct touchstone_status expected = advance(&whole, EVENTS), got = {0};
+		struct touchstone_status expected = advance(&whole, events), got = {0};
 		uint64_t left = expected.events;
 		for (int stop = 0; stop < STOPS; stop++, stops++) {
-			uint64_t events = random_below(&random, left + 1);
+			uint64_t more = random_below(&random, left + 1);
 			double at = random_below(&random, 3) ? INFINITY : got.time + expected.time * random_uniform(&random) / 4;
-			touchstone_run(broken.engine, &(struct touchstone_limits){events, at, NULL}, NULL);
+			touchstone_run(broken.engine, &(struct touchstone_limits){more, at, NULL}, NULL);
 			interrupt(&broken, arithmetic, method, &random);
 			got = status_of(&broken);
 			left = expected.events - got.events;
 		}
-		if (expected.verdict != TOUCHSTONE_DONE || left > 0) advance(&broken, EVENTS - got.events);
+		if (expected.verdict != TOUCHSTONE_DONE || left > 0) advance(&broken, events - got.events);
 		got = status_of(&broken);
 		if (got.digest != expected.digest || got.crossings != expected.crossings || got.verdict != expected.verdict)
 			fail_msg("trial %d (kind %d, %d dimensions, %s, %s): %016llx after %llu events, but %016llx after %llu; %s",
 					 trial, kind, recipe.dimensions, arithmetic, method, (unsigned long long)got.digest,
 					 (unsigned long long)got.events, (unsigned long long)expected.digest,
 					 (unsigned long long)expected.events, got.reason);
-		assert_true(got.verdict != TOUCHSTONE_DONE || got.time == expected.time || got.events < EVENTS);
-		if (expected.events == EVENTS) assert_same_state(&whole, &broken);
+		assert_true(got.verdict != TOUCHSTONE_DONE || got.time == expected.time || got.events < events);
+		if (expected.events == events) assert_same_state(&whole, &broken);
 		ended[got.verdict]++;
 		end(&whole);
 		end(&broken);
 	}
-	print_message("%d stops; %d runs done, %d collapsed, %d halted\n", stops, ended[TOUCHSTONE_DONE],
-				  ended[TOUCHSTONE_COLLAPSED], ended[TOUCHSTONE_HALTED]);
-	assert_true(ended[TOUCHSTONE_DONE] > 0 &&
-				(brief || (ended[TOUCHSTONE_COLLAPSED] > 0 && ended[TOUCHSTONE_HALTED] > 0)));
+	print_message("%d stops; %d runs done, %d collapsed\n", stops, ended[TOUCHSTONE_DONE],
+				  ended[TOUCHSTONE_COLLAPSED]);
+	assert_true(ended[TOUCHSTONE_DONE] > 0 && (brief || ended[TOUCHSTONE_COLLAPSED] > 0));
 }
 
 /* What is saved is taken in as it is: saved again at once, it is the same field by field. */

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "command/checkpointing.h"
 #include "command/command.h"
 #include "command/interrupt.h"
 #include "measure/course.h"
@@ -36,25 +37,39 @@ __attribute__((format(printf, 2, 3))) static void reason(struct outcome *outcome
 static bool equilibrate(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 						struct simulation_progress *progress, uint64_t *executed)
 {
-	struct touchstone_limits limits = {.events = course_events(plan->file->equilibrate, outcome->particles),
-									   .time = INFINITY};
+	struct touchstone_status begun;
+	touchstone_status(simulation->engine, &begun);
+	uint64_t wanted = course_events(plan->file->equilibrate, outcome->particles);
+	struct touchstone_limits limits = {.events = wanted - begun.events, .time = INFINITY};
 	uint64_t then = plan->limits.events < UINT64_MAX ? plan->limits.events : 0;
 	touchstone_elastic(simulation->engine, true);
 	outcome->interrupted = !simulation_advance(simulation, &limits, NULL, progress, then);
 	touchstone_elastic(simulation->engine, false);
 	touchstone_status(simulation->engine, &outcome->status);
-	*executed = outcome->status.events;
+	*executed = outcome->status.events - begun.events;
 	if (!outcome->interrupted && outcome->status.verdict == TOUCHSTONE_DONE) return true;
+	checkpointing_end(simulation);
+	uint64_t events = outcome->status.events;
 	char why[sizeof outcome->status.reason];
 	memcpy(why, outcome->status.reason, sizeof why);
 	touchstone_recount(simulation->engine);
 	touchstone_status(simulation->engine, &outcome->status);
 	if (outcome->interrupted)
-		reason(outcome, "stopped by a signal after %llu events of equilibration", (unsigned long long)*executed);
+		reason(outcome, "stopped by a signal after %llu events of equilibration", (unsigned long long)events);
 	else
 		reason(outcome, "during equilibration: %.130s", why);
 	outcome->time_begun = outcome->status.time;
 	return false;
+}
+
+/* Counting begins here. */
+static void begin_measuring(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation)
+{
+	touchstone_recount(simulation->engine);
+	touchstone_status(simulation->engine, &outcome->status);
+	outcome->conservation = plan->conservation;
+	outcome->time_begun = outcome->status.time;
+	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
 }
 
 static void measure(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
@@ -62,21 +77,19 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 {
 	struct touchstone_observer observer = {impact_see, outcome->impact};
 	struct touchstone_limits limits = plan->limits;
-	touchstone_recount(simulation->engine);
 	touchstone_status(simulation->engine, &outcome->status);
-	outcome->conservation = plan->conservation;
-	outcome->time_begun = outcome->status.time;
+	if (limits.events < UINT64_MAX) limits.events -= outcome->status.events;
 	limits.time += outcome->time_begun;
-	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
-	double clock = progress_clock();
+	outcome->clock_begun = progress_clock() - outcome->wall_seconds;
 	outcome->interrupted =
 		!simulation_advance(simulation, &limits, outcome->impact ? &observer : NULL, progress, before);
-	outcome->wall_seconds = progress_clock() - clock;
+	checkpointing_end(simulation);
+	outcome->wall_seconds = progress_clock() - outcome->clock_begun;
 	touchstone_status(simulation->engine, &outcome->status);
 	if (outcome->interrupted)
 		reason(outcome, "stopped by a signal after %llu events, at t = %.17g",
 			   (unsigned long long)outcome->status.events, outcome->status.time);
-	else if (outcome->status.verdict == TOUCHSTONE_DONE && outcome->status.events < limits.events &&
+	else if (outcome->status.verdict == TOUCHSTONE_DONE && outcome->status.events < plan->limits.events &&
 			 limits.time == INFINITY)
 		reason(outcome, "no event is left after t = %.17g", outcome->status.time);
 	for (size_t w = 0; w < outcome->virtual_wall_count; w++) touchstone_flux(simulation->engine, w, outcome->fluxes[w]);
@@ -118,9 +131,17 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	size_t walls = simulation->scene.virtual_wall_count;
 	outcome->fluxes = calloc(walls + 1, sizeof *outcome->fluxes);
 	outcome->virtual_wall_count = outcome->fluxes ? walls : 0;
+	struct checkpointing checkpointing = {.plan = plan, .outcome = outcome, .simulation = simulation};
+	bool measuring = false;
+	outcome->failed = plan->resumed && !checkpointing_resume(&checkpointing, &measuring, outcome->error);
+	if (outcome->failed) return;
+	checkpointing_begin(&checkpointing, measuring);
 	uint64_t before = 0;
-	bool ready = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
-	if (ready) measure(outcome, plan, simulation, progress, before);
+	if (!measuring && (plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before))) {
+		begin_measuring(outcome, plan, simulation);
+		measuring = checkpointing.measuring = true;
+	}
+	if (measuring) measure(outcome, plan, simulation, progress, before);
 	if (plan->xyz) write_particles(simulation, plan->xyz, outcome->error);
 }
 
@@ -134,9 +155,12 @@ void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t
 		return;
 	}
 	struct simulation simulation;
-	outcome->failed = !simulation_open(&simulation, plan->file, seed, outcome->error);
+	outcome->failed = !simulation_prepare(&simulation, plan->file, seed, outcome->error);
 	if (outcome->failed) return;
-	find(outcome, plan, &simulation, progress);
+	const struct checkpoint *resumed = plan->resumed;
+	outcome->failed = (resumed && !checkpointing_fits(plan, &simulation, outcome->error)) ||
+					  !simulation_start(&simulation, plan->file, resumed ? &resumed->state : NULL, outcome->error);
+	if (!outcome->failed) find(outcome, plan, &simulation, progress);
 	simulation_close(&simulation);
 }
 

@@ -58,6 +58,9 @@ static void print_one(const struct outcome *outcome)
 	row("verdict", "%s%s%s", outcome_verdict(outcome), status->reason[0] ? ": " : "", status->reason);
 	row("digest", "%016llx", (unsigned long long)status->digest);
 	print_fluxes(outcome);
+	if (outcome->resumed) row("resumed", "after %llu events", (unsigned long long)outcome->resumed_from);
+	if (outcome->checkpoints)
+		row("checkpoints", "%llu, in %.3g s", (unsigned long long)outcome->checkpoints, outcome->checkpoint_seconds);
 	if (has_steps(status))
 		row("wall time", "%.3g s, %.4g events per second", outcome->wall_seconds,
 			(double)status->events / outcome->wall_seconds);

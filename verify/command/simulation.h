@@ -8,12 +8,22 @@
 struct simulation {
 	struct touchstone_scene scene;
 	struct touchstone_engine *engine;
+	uint64_t every;               /* events: whenever so many more have been executed in all, there is a pause, */
+	void (*pause)(void *context); /* in which the engine may be looked at, and not run; 0: never */
+	void *pause_context;
 };
 
 /* Makes the scene of `file` with another seed, and the engine it asks for. False with a message, and nothing to close,
  * when that cannot be. */
 bool simulation_open(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
 					 char error[STORE_ERROR]);
+
+/* The same in two steps: the scene, to be freed by simulation_close, and then the engine, in a state that was saved
+ * or, without one, at the start. */
+bool simulation_prepare(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
+						char error[STORE_ERROR]);
+bool simulation_start(struct simulation *simulation, const struct scene_file *file,
+					  const struct touchstone_snapshot *state, char error[STORE_ERROR]);
 void simulation_close(struct simulation *simulation);
 
 /* Whether the arithmetic and the method that `file` names exist; false with a message that says where they were named.
