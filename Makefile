@@ -3,7 +3,8 @@
 #   make report            the papers' figures at quick size, as pages in build/report
 #   make test              all tests, also under sanitizers, and the digests of other compilers and optimisations
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
-#   make soak              10^9 answers of the correctly rounded finder against the exact oracle; QUESTIONS=1e7 for fewer
+#   make soak              100 runs killed and resumed, KILLS=1000 for more; then 10^9 answers of the correctly rounded
+#                          finder against the exact oracle, QUESTIONS=1e7 for fewer
 #   make CC=clang          another compiler               make BUILD=build/other   another place
 #   make clean, make format
 
@@ -62,8 +63,9 @@ bench:
 	$(BUILD)/bench --baseline $(BASELINE) --results $(BUILD)/results $(if $(FULL),--full) $(if $(STORE),--store)
 	$(BUILD)/touchstone report --results $(BUILD)/results --output $(BUILD)/report
 
-soak: $(BUILD)/verify/soak/rounded_soak
-	$< $(QUESTIONS)
+soak: $(BUILD)/touchstone $(BUILD)/verify/soak/kill_soak $(BUILD)/verify/soak/rounded_soak
+	$(BUILD)/verify/soak/kill_soak $(KILLS)
+	$(BUILD)/verify/soak/rounded_soak $(QUESTIONS)
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
 sanitize:
@@ -140,6 +142,7 @@ $(BUILD)/plugins/%_cxx.so: verify/test/plugins/%.c lib/touchstone.h
 	@mkdir -p $(@D)
 	$(call say,plug-in $@) g++ -x c++ -std=c++11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
 
+$(BUILD)/verify/soak/kill_soak: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
 $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)

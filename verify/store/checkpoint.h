@@ -4,8 +4,9 @@
  * their checksum, by which it is refused, before anything else looks at it, when it is not whole. The rest is HDF5
  * (which tools find behind the text): attributes that say what it is a checkpoint of, the group `state` with a dataset
  * for each field of the engine's state, and the group `run` with what has been measured on the way. Every dataset has
- * checksums of its own (Fletcher 32). Nothing is compressed: gzip at level 1, even with bytes shuffled, made the
- * checkpoint of 10^6 hard spheres in binary64 smaller by a fourth and 18 times as slow to write. */
+ * checksums of its own (Fletcher 32). Nothing is compressed: gzip at level 1 with bytes shuffled
+ * halves the checkpoint of 10^5 hard spheres in binary64 after 2 10^6 events (10.5 MB), and takes five times as long
+ * (h5repack -f SHUF -f GZIP=1 against -f FLET: 0.14 s and 0.03 s of the processor's time). */
 #ifndef VERIFY_CHECKPOINT_H
 #define VERIFY_CHECKPOINT_H
 
