@@ -101,7 +101,7 @@ bool simulation_advance(struct simulation *simulation, const struct touchstone_l
 	uint64_t every = simulation->every;
 	for (;;) { /* from pause to pause */
 		uint64_t events = now.events, left = every ? every - events % every : UINT64_MAX;
-		if (left < limits->events) part.events = left < until - events ? left : until - events;
+		part.events = left < until - events ? left : until - events;
 		bool through = course_run(simulation->engine, &part, observer, &watch);
 		touchstone_status(simulation->engine, &now);
 		bool more = through && now.verdict == TOUCHSTONE_DONE && now.events - events == part.events;
