@@ -101,17 +101,24 @@ static bool write_particles(const struct simulation *simulation, const char *pat
 {
 	struct touchstone_scene scene = simulation->scene;
 	struct touchstone_particle *particles = malloc(scene.particle_count * sizeof *particles);
-	if (!particles) {
+	uint32_t *captured = malloc(scene.particle_count * sizeof *captured);
+	bool stepped = false;
+	for (size_t p = 0; p < scene.potential_count; p++) stepped |= scene.potentials[p].step_count > 0;
+	if (!particles || !captured) {
 		snprintf(error, STORE_ERROR, "%.200s: no memory for %zu particles", path, scene.particle_count);
+		free(particles);
+		free(captured);
 		return false;
 	}
 	for (uint32_t p = 0; p < scene.particle_count; p++) {
 		particles[p].species = scene.particles[p].species;
 		touchstone_state(simulation->engine, p, particles[p].position, particles[p].velocity);
+		captured[p] = (uint32_t)touchstone_captured(simulation->engine, p, NULL, 0);
 	}
 	scene.particles = particles;
-	bool written = extended_xyz_write(path, &scene, error);
+	bool written = extended_xyz_write(path, &scene, stepped ? captured : NULL, error);
 	free(particles);
+	free(captured);
 	return written;
 }
 
