@@ -19,6 +19,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default) /* the shared library shows what is declared here, and nothing else */
+#endif
 
 /* ------------------------------------------------------------------ scenes */
 
@@ -207,6 +210,15 @@ void touchstone_recount(struct touchstone_engine *engine);
 /* Elastic collisions from here on (true), or the scene's own law again (false). For equilibration. */
 void touchstone_elastic(struct touchstone_engine *engine, bool elastic);
 
+/* Another unit of time: from here on all speeds are 2^exponent times what they were, and all times, that of the last
+ * event too, 2^-exponent times. To hard bodies this makes no difference (they have no energy of their own), and only
+ * exponents change: no number is rounded, unless one leaves the range of the arithmetic. So a gas that cools can be
+ * kept as warm as it began. In the absolute form all that follows is the same, event by event. In the relative form
+ * pages keep their length, to which a cooled gas had grown slow, so that times are rounded again as they were at the
+ * start. False, changing nothing, where something else has a scale of its own (gravity, steps, viscoelastic
+ * restitution), and for more than 64 either way. Not to be called by an observer. */
+bool touchstone_rescale(struct touchstone_engine *engine, int exponent);
+
 /* Position and velocity of one particle at the time of the last event, rounded to double; positions within the box
  * along periodic axes. */
 void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3],
@@ -217,6 +229,18 @@ void touchstone_state(const struct touchstone_engine *engine, uint32_t particle,
  * distance of the event (contact, or the step) in the same way, filled with zeros. */
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 						  double contact[TOUCHSTONE_MOST_TERMS]);
+
+/* A particle that overlaps another: both are hard bodies to each other, or have cores. */
+struct touchstone_overlap {
+	uint32_t partner;
+	double depth; /* how much nearer their centres are than contact, rounded to double: > 0 */
+};
+
+/* Lists up to `room` particles that overlap this one at the time of the last event (during an observer's call: of the
+ * event it is told of), in no order; returns how many there are. Positions are those which an event at that time would
+ * leave in the working arithmetic, and whether they overlap is decided exactly. Looks at neighbouring cells only. */
+size_t touchstone_overlaps(const struct touchstone_engine *engine, uint32_t particle, struct touchstone_overlap *list,
+						   size_t room);
 
 /* The tracked state of a pair: how many steps of its potential it is within. 0, the commonest, is not stored. It was
  * read from the positions once, when the engine was made (a pair exactly at a step is outside it), and is changed by
@@ -403,6 +427,9 @@ touchstone_ball_ball_finder touchstone_ball_ball;
 touchstone_ball_leave_finder touchstone_ball_leave;
 touchstone_ball_plane_finder touchstone_ball_plane;
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

@@ -9,6 +9,7 @@
 #include "engine/cells.h"
 #include "engine/pairs.h"
 #include "engine/sieve.h"
+#include "overlap/excess.h"
 #include "scene/potential.h"
 #include "touchstone.h"
 #include "unit/unit.h"
@@ -57,9 +58,11 @@ extern const struct unit THIS_UNIT;
 
 #include "engine/collide.inl"
 #include "engine/crossing.inl"
+#include "engine/overlaps.inl"
 #include "engine/layout.inl"
 #include "engine/step.inl"
 
+#include "engine/rescale.inl"
 #include "engine/run.inl"
 
 #include "engine/create_states.inl"

@@ -55,6 +55,7 @@ static struct strips strips_of(struct touchstone_engine *engine)
 		{"lookups", TOUCHSTONE_COUNTS, OF_ENGINE, 1, &engine->lookups, 0},
 		{"digest", TOUCHSTONE_COUNTS, OF_ENGINE, 1, &engine->digest, 0},
 		{"elastic", TOUCHSTONE_BYTES, OF_ENGINE, 1, &engine->elastic, 0},
+		{"uneven", TOUCHSTONE_BYTES, OF_ENGINE, 1, &engine->uneven, 0},
 		{"verdict", TOUCHSTONE_INTEGERS, OF_ENGINE, 1, &engine->verdict, 0},
 		{"reason", TOUCHSTONE_BYTES, OF_ENGINE, sizeof engine->reason, engine->reason, 0},
 		{"blamed", TOUCHSTONE_INTEGERS, OF_ENGINE, 2, engine->blamed, 0},
@@ -223,9 +224,10 @@ static bool body_makes_sense(const struct touchstone_engine *engine, uint32_t i)
 
 static bool state_makes_sense(const struct touchstone_engine *engine, char error[160])
 {
-	char elastic;
+	unsigned char elastic, uneven;
 	memcpy(&elastic, &engine->elastic, 1);
-	if (elastic < 0 || elastic > 1 || engine->verdict > TOUCHSTONE_DIVERGED || engine->reason[159])
+	memcpy(&uneven, &engine->uneven, 1);
+	if (elastic > 1 || uneven > 1 || engine->verdict > TOUCHSTONE_DIVERGED || engine->reason[159])
 		return refuse(error, "the state's verdict is none");
 	for (uint32_t id = 0; engine->verdict == TOUCHSTONE_DONE && id < engine->count; id++)
 		if (!body_makes_sense(engine, engine->index_of[id]))

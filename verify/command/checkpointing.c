@@ -32,12 +32,14 @@ static bool each_bar(struct impact_histogram *histogram, const char *name, visit
 	enum { BARS = sizeof histogram->bar / sizeof *histogram->bar };
 	uint64_t sides[2] = {histogram->below, histogram->above};
 	double sums[4] = {histogram->sum, histogram->sum_of_squares, histogram->least, histogram->most};
-	char bars[24], of_sides[24], of_sums[24];
+	char bars[24], of_sides[24], doublings[24], of_sums[24];
 	snprintf(bars, sizeof bars, "%s_bars", name);
 	snprintf(of_sides, sizeof of_sides, "%s_sides", name);
+	snprintf(doublings, sizeof doublings, "%s_doublings", name);
 	snprintf(of_sums, sizeof of_sums, "%s_sums", name);
 	bool all = each(context, bars, TOUCHSTONE_COUNTS, BARS, histogram->bar) &&
 			   each(context, of_sides, TOUCHSTONE_COUNTS, 2, sides) &&
+			   each(context, doublings, TOUCHSTONE_COUNTS, 2 * IMPACT_DOUBLINGS, histogram->doubling) &&
 			   each(context, of_sums, TOUCHSTONE_DOUBLES, 4, sums);
 	histogram->below = sides[0], histogram->above = sides[1];
 	histogram->sum = sums[0], histogram->sum_of_squares = sums[1];
@@ -50,6 +52,19 @@ static bool each_impact(struct impact *impact, visit *each, void *context)
 	return each(context, "impacts", TOUCHSTONE_COUNTS, 1, &impact->count) &&
 		   each(context, "impacts_forced", TOUCHSTONE_COUNTS, 1, &impact->forced) &&
 		   each_bar(&impact->measured, "measured", each, context) && each_bar(&impact->exact, "exact", each, context);
+}
+
+static bool each_three_body(struct three_body *three_body, visit *each, void *context)
+{
+	uint64_t counts[4] = {three_body->contacts, three_body->overlapping, three_body->events, three_body->encounters};
+	double depths[2] = {three_body->depth, three_body->deepest};
+	bool all = each(context, "three_body_counts", TOUCHSTONE_COUNTS, 4, counts) &&
+			   each(context, "three_body_depths", TOUCHSTONE_DOUBLES, 2, depths) &&
+			   each(context, "three_body_trios", TOUCHSTONE_COUNTS, three_body->particles, three_body->trio);
+	three_body->contacts = counts[0], three_body->overlapping = counts[1];
+	three_body->events = counts[2], three_body->encounters = counts[3];
+	three_body->depth = depths[0], three_body->deepest = depths[1];
+	return all;
 }
 
 static bool each_of_run(struct outcome *outcome, visit *each, void *context)
@@ -87,7 +102,8 @@ static bool fill(const struct checkpointing *checkpointing, struct checkpoint *c
 	return touchstone_save(checkpointing->simulation->engine, &checkpoint->state) &&
 		   put(checkpoint, "measuring", TOUCHSTONE_COUNTS, 1, &measuring) && each_of_run(outcome, put, checkpoint) &&
 		   (!measuring || !plan->conservation || each_sum(&outcome->conserved[0], put, checkpoint)) &&
-		   (!measuring || !plan->impact || each_impact(outcome->impact, put, checkpoint));
+		   (!measuring || !plan->impact || each_impact(outcome->impact, put, checkpoint)) &&
+		   (!measuring || !plan->three_body || each_three_body(&outcome->three_body, put, checkpoint));
 }
 
 static void write_one(void *context)
@@ -157,6 +173,12 @@ bool checkpointing_has_impacts(const struct checkpoint *checkpoint)
 	return checkpoint_get(checkpoint, "impacts", TOUCHSTONE_COUNTS, 1, &count);
 }
 
+bool checkpointing_has_three_bodies(const struct checkpoint *checkpoint)
+{
+	uint64_t counts[4];
+	return checkpoint_get(checkpoint, "three_body_counts", TOUCHSTONE_COUNTS, 4, counts);
+}
+
 bool checkpointing_has_sums(const struct checkpoint *checkpoint)
 {
 	double scale;
@@ -183,10 +205,12 @@ bool checkpointing_resume(struct checkpointing *checkpointing, bool *measuring, 
 	if (status.time - outcome->time_begun > plan->limits.time)
 		return blame(plan, error, "the run had come to a time of %g; accepted: --time of at least as much",
 					 status.time - outcome->time_begun);
-	if (plan->conservation && !each_sum(&outcome->conserved[0], get, resumed))
-		return blame(plan, error, "conservation was not measured from the beginning; accepted: --measure without it");
-	if (plan->impact && !each_impact(outcome->impact, get, resumed))
-		return blame(plan, error, "impacts were not measured from the beginning; accepted: --measure without impact");
+	const char *lacking = NULL;
+	if (plan->conservation && !each_sum(&outcome->conserved[0], get, resumed)) lacking = "conservation";
+	if (plan->impact && !each_impact(outcome->impact, get, resumed)) lacking = "impact";
+	if (plan->three_body && !each_three_body(&outcome->three_body, get, resumed)) lacking = "three-body";
+	if (lacking)
+		return blame(plan, error, "%s was not measured from the beginning; accepted: --measure without it", lacking);
 	outcome->conservation = plan->conservation;
 	return true;
 }

@@ -16,8 +16,9 @@ struct checkpointing {
  * limits; false with a message. */
 bool checkpointing_fits(const struct run_plan *plan, const struct simulation *simulation, char error[STORE_ERROR]);
 
-/* Whether impacts were measured, and sums that are conserved, before a checkpoint. */
+/* Whether impacts were measured, three-body events, and sums that are conserved, before a checkpoint. */
 bool checkpointing_has_impacts(const struct checkpoint *checkpoint);
+bool checkpointing_has_three_bodies(const struct checkpoint *checkpoint);
 bool checkpointing_has_sums(const struct checkpoint *checkpoint);
 
 /* Takes over what was measured before the checkpoint that the plan resumes; false with a message, such as when it lacks

@@ -72,17 +72,25 @@ static void begin_measuring(struct outcome *outcome, const struct run_plan *plan
 	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
 }
 
+/* Shows an event to all that look on. */
+static void see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
+{
+	struct outcome *outcome = context;
+	if (outcome->impact) impact_see(outcome->impact, engine, event);
+	if (outcome->three_bodies) three_body_see(&outcome->three_body, engine, event);
+}
+
 static void measure(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 					struct simulation_progress *progress, uint64_t before)
 {
-	struct touchstone_observer observer = {impact_see, outcome->impact};
+	struct touchstone_observer observer = {see, outcome};
+	bool observed = outcome->impact || outcome->three_bodies;
 	struct touchstone_limits limits = plan->limits;
 	touchstone_status(simulation->engine, &outcome->status);
 	if (limits.events < UINT64_MAX) limits.events -= outcome->status.events;
 	limits.time += outcome->time_begun;
 	outcome->clock_begun = progress_clock() - outcome->wall_seconds;
-	outcome->interrupted =
-		!simulation_advance(simulation, &limits, outcome->impact ? &observer : NULL, progress, before);
+	outcome->interrupted = !simulation_advance(simulation, &limits, observed ? &observer : NULL, progress, before);
 	checkpointing_end(simulation);
 	outcome->wall_seconds = progress_clock() - outcome->clock_begun;
 	touchstone_status(simulation->engine, &outcome->status);
@@ -122,6 +130,23 @@ static bool write_particles(const struct simulation *simulation, const char *pat
 	return written;
 }
 
+/* Where the run parts from the same in a finer arithmetic; before it begins, both get one start. */
+static bool compare(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
+					struct simulation_progress *progress, uint64_t *executed)
+{
+	struct touchstone_limits limits = plan->limits;
+	bool anew = outcome->status.events > 0;
+	if (anew && !simulation_begin_anew(simulation, plan->file, outcome->error)) return false;
+	limits.time += simulation->scene.clock;
+	uint64_t then = plan->limits.events < UINT64_MAX ? plan->limits.events : 0;
+	if (!simulation_horizon(simulation, plan->file, plan->against, &limits, progress, *executed + then,
+							&outcome->horizon, outcome->error))
+		return false;
+	outcome->compared = true;
+	*executed += outcome->horizon.events;
+	return true;
+}
+
 /* From a start state to an outcome. */
 static void find(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 				 struct simulation_progress *progress)
@@ -135,6 +160,14 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 		}
 		impact_begin(outcome->impact, arithmetic_bits(plan->file->arithmetic));
 	}
+	if (plan->three_body) {
+		outcome->three_bodies = three_body_begin(&outcome->three_body, outcome->particles);
+		outcome->failed = !outcome->three_bodies;
+		if (outcome->failed) {
+			snprintf(outcome->error, STORE_ERROR, "out of memory");
+			return;
+		}
+	}
 	size_t walls = simulation->scene.virtual_wall_count;
 	outcome->fluxes = calloc(walls + 1, sizeof *outcome->fluxes);
 	outcome->virtual_wall_count = outcome->fluxes ? walls : 0;
@@ -144,12 +177,17 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	if (outcome->failed) return;
 	checkpointing_begin(&checkpointing, measuring);
 	uint64_t before = 0;
-	if (!measuring && (plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before))) {
-		begin_measuring(outcome, plan, simulation);
-		measuring = checkpointing.measuring = true;
+	if (!measuring) {
+		measuring = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
+		if (measuring && plan->against && plan->limits.events > 0) {
+			measuring = compare(outcome, plan, simulation, progress, &before);
+			outcome->failed = *outcome->error;
+		}
+		if (measuring) begin_measuring(outcome, plan, simulation);
 	}
+	checkpointing.measuring = measuring;
 	if (measuring) measure(outcome, plan, simulation, progress, before);
-	if (plan->xyz) write_particles(simulation, plan->xyz, outcome->error);
+	if (plan->xyz && !outcome->failed) write_particles(simulation, plan->xyz, outcome->error);
 }
 
 void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t seed,
@@ -173,6 +211,7 @@ void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t
 
 void outcome_free(struct outcome *outcome)
 {
+	three_body_end(&outcome->three_body);
 	free(outcome->impact);
 	free(outcome->fluxes);
 }
@@ -195,4 +234,15 @@ struct impact *outcome_impact(const struct outcome *outcomes, size_t count)
 			*together = *outcomes[o].impact;
 	}
 	return together;
+}
+
+bool outcome_three_body(const struct outcome *outcomes, size_t count, struct three_body *together)
+{
+	bool measured = false;
+	*together = (struct three_body){0};
+	for (size_t o = 0; o < count; o++) {
+		if (outcomes[o].three_bodies) three_body_merge(together, &outcomes[o].three_body);
+		measured |= outcomes[o].three_bodies;
+	}
+	return measured;
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "command/interrupt.h"
 #include "measure/course.h"
@@ -35,6 +36,38 @@ bool simulation_open(struct simulation *simulation, const struct scene_file *fil
 	if (simulation_start(simulation, file, NULL, error)) return true;
 	simulation_close(simulation);
 	return false;
+}
+
+/* At the last event two particles touch, or are at a step, and rounding could put them on either side of it: some time
+ * later, as it passes between two events, none do. */
+static void fly_on(struct touchstone_engine *engine, double begun)
+{
+	struct touchstone_status status;
+	touchstone_status(engine, &status);
+	double later = status.time + (status.time - begun) / (double)(status.events + 1);
+	touchstone_run(engine, &(struct touchstone_limits){UINT64_MAX, later, interrupt_flag()}, NULL);
+}
+
+bool simulation_begin_anew(struct simulation *simulation, const struct scene_file *file, char error[STORE_ERROR])
+{
+	struct touchstone_scene *scene = &simulation->scene;
+	struct touchstone_particle *particles = malloc(scene->particle_count * sizeof *particles);
+	if (!particles) {
+		snprintf(error, STORE_ERROR, "%.200s: no memory for %zu particles", file->name, scene->particle_count);
+		return false;
+	}
+	fly_on(simulation->engine, scene->clock);
+	for (uint32_t p = 0; p < scene->particle_count; p++) {
+		particles[p].species = scene->particles[p].species;
+		touchstone_state(simulation->engine, p, particles[p].position, particles[p].velocity);
+	}
+	struct touchstone_status status;
+	touchstone_status(simulation->engine, &status);
+	touchstone_destroy(simulation->engine);
+	free((void *)scene->particles);
+	scene->particles = particles;
+	scene->clock = status.time;
+	return simulation_start(simulation, file, NULL, error);
 }
 
 void simulation_close(struct simulation *simulation)
@@ -79,8 +112,11 @@ static void report(void *context, uint64_t more, const struct touchstone_status 
 #pragma omp critical(simulation_progress)
 	{
 		progress->done += (double)more;
-		progress_show(&progress->line, progress->done,
-					  (reporter->besides + expected(reporter, now->time)) * progress->runs);
+		double total = (reporter->besides + expected(reporter, now->time)) * progress->runs;
+		if (progress->tell)
+			progress->tell(progress->context, progress->done, total);
+		else
+			progress_show(&progress->line, progress->done, total);
 	}
 }
 
@@ -108,4 +144,17 @@ bool simulation_advance(struct simulation *simulation, const struct touchstone_l
 		if (!more || !every || now.events >= until) return through;
 		simulation->pause(simulation->pause_context);
 	}
+}
+
+bool simulation_horizon(const struct simulation *simulation, const struct scene_file *file, const char *against,
+						const struct touchstone_limits *limits, struct simulation_progress *progress, uint64_t besides,
+						struct horizon *horizon, char error[STORE_ERROR])
+{
+	struct reporter reporter = {progress, limits, (double)besides, simulation->scene.clock, 0};
+	struct watch watch = {interrupt_flag(), progress ? report : NULL, &reporter};
+	char reason[160];
+	bool found =
+		horizon_find(&simulation->scene, file->method, file->arithmetic, against, limits, &watch, horizon, reason);
+	if (!found) snprintf(error, STORE_ERROR, "%.200s: %s", file->name, reason);
+	return found;
 }

@@ -1,9 +1,9 @@
 #include "measure/impact.h"
 
-#include "num/twin.h"
 #include <math.h>
-#include <mpfr.h>
 #include <string.h>
+
+#include "overlap/excess.h"
 
 void impact_begin(struct impact *impact, int bits)
 {
@@ -19,6 +19,11 @@ static void enter(struct impact_histogram *histogram, double steps, double exces
 	histogram->bar[IMPACT_REACH + (int)bar]++;
 	histogram->below += excess < 0;
 	histogram->above += excess > 0;
+	int doublings;
+	frexp(excess, &doublings);
+	histogram->doubling[!(excess < 0)][doublings < 0                  ? 0
+									   : doublings < IMPACT_DOUBLINGS ? doublings
+																	  : IMPACT_DOUBLINGS - 1]++;
 	histogram->sum += excess;
 	histogram->sum_of_squares += excess * excess;
 	histogram->least = fmin(histogram->least, excess);
@@ -37,42 +42,6 @@ static double ulp_of(double contact, int bits)
 	int exponent;
 	frexp(contact, &exponent);
 	return ldexp(1, exponent - bits);
-}
-
-/* (|r|^2 - contact^2) / (|r| + contact) in double-double: relative error below 2^-95 of contact as long as the terms
- * are not many times larger than contact, which the caller's margin of 2^-30 ulp covers for up to 53 bits. */
-static double excess_twin(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count, double contact)
-{
-	num squares = from_double(0);
-	for (int axis = 0; axis < 3; axis++) {
-		num r = from_double(0);
-		for (int term = 0; term < count; term++) r = add(r, from_double(terms[axis][term]));
-		squares = add(squares, mul(r, r));
-	}
-	num s = from_double(contact);
-	return to_double(divide(sub(squares, mul(s, s)), add(root(squares), s)));
-}
-
-/* The same, exact but for the last rounding: sums and squares of doubles of any size are held whole. */
-static double excess_mpfr(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count,
-						  const double contact[TOUCHSTONE_MOST_TERMS])
-{
-	mpfr_t sum, squares, part;
-	mpfr_inits2(2200, sum, part, (mpfr_ptr)0);
-	mpfr_init2(squares, 4500);
-	mpfr_set_zero(squares, 1);
-	for (int axis = 0; axis < 3; axis++) {
-		mpfr_set_zero(sum, 1);
-		for (int term = 0; term < count; term++) mpfr_add_d(sum, sum, terms[axis][term], MPFR_RNDN);
-		mpfr_set_prec(part, 4500);
-		mpfr_sqr(part, sum, MPFR_RNDN);
-		mpfr_add(squares, squares, part, MPFR_RNDN);
-	}
-	mpfr_sqrt(squares, squares, MPFR_RNDN);
-	for (int term = 0; term < TOUCHSTONE_MOST_TERMS; term++) mpfr_sub_d(squares, squares, contact[term], MPFR_RNDN);
-	double excess = mpfr_get_d(squares, MPFR_RNDN);
-	mpfr_clears(sum, part, squares, (mpfr_ptr)0);
-	return excess;
 }
 
 /* Whether an excess known to within 2^-30 ulp leaves its bar and its sign in no doubt. */
@@ -94,11 +63,11 @@ void impact_see(void *context, struct touchstone_engine *engine, const struct to
 	double steps = (double)event->steps;
 	enter(&impact->measured, steps, steps < 0 ? steps / finer : steps);
 
-	double excess = impact->bits <= 53 ? excess_twin(terms, count, contact) / ulp : NAN;
+	double excess = impact->bits <= 53 ? excess_quick(terms, count, distance) / ulp : NAN;
 	double exact_steps = excess < 0 ? excess * finer : excess;
 	if (impact->bits > 53 || !settled(exact_steps)) {
 		impact->forced++;
-		excess = excess_mpfr(terms, count, distance) / ulp;
+		excess = excess_exact(terms, count, distance) / ulp;
 		exact_steps = excess < 0 ? excess * finer : excess;
 	}
 	enter(&impact->exact, rint(exact_steps), excess);
@@ -107,6 +76,8 @@ void impact_see(void *context, struct touchstone_engine *engine, const struct to
 static void histogram_merge(struct impact_histogram *into, const struct impact_histogram *from)
 {
 	for (int bar = 0; bar <= 2 * IMPACT_REACH; bar++) into->bar[bar] += from->bar[bar];
+	for (int side = 0; side < 2; side++)
+		for (int k = 0; k < IMPACT_DOUBLINGS; k++) into->doubling[side][k] += from->doubling[side][k];
 	into->below += from->below;
 	into->above += from->above;
 	into->sum += from->sum;

@@ -28,7 +28,7 @@ static void assert_same_run(const json_t *one, const json_t *other, const char *
 	static const char *const same[] = {"seed",    "events",    "collisions",     "captures",   "releases",
 									   "bounces", "crossings", "captured_pairs", "time_begun", "time",
 									   "verdict", "reason",    "complete",       "digest",     "potential_energy",
-									   "fluxes",  "impact",    "conservation"};
+									   "fluxes",  "impact",    "conservation",   "three_body"};
 	for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
 		const json_t *first = json_object_get(one, same[k]), *second = json_object_get(other, same[k]);
 		if (first != second && !json_equal(first, second)) fail_msg("%s: '%s' differs", scene, same[k]);
@@ -40,7 +40,7 @@ static void parts_make_the_whole(void **state)
 {
 	(void)state;
 	static const char *const scenes[] = {
-		"hard-spheres --set particles=108 --set equilibrate=3 --measure impact,conservation",
+		"hard-spheres --set particles=108 --set equilibrate=3 --measure impact,conservation,three-body",
 		"square-well --set particles=108 --set density=0.2 --set equilibrate=2 --measure conservation",
 		"stepped-lennard-jones --set particles=108 --arithmetic twin --set virtual_walls=[{point:\t[0,0,0],normal:\t[1,"
 		"0,0]}]",
@@ -160,6 +160,7 @@ static void what_does_not_fit_is_refused(void **state)
 	refused("come to a time of", "--time 0.001");
 	refused("conservation was not measured", "--events 400 --measure conservation");
 	refused("--runs: 2, with a checkpoint", "--events 400 --runs 2");
+	refused("--against: accepted: without", "--events 400 --against mpfr:80");
 	refused("--every: accepted: with --checkpoint", "--events 400 --every 5");
 	program_refused(program_run(GAS " --events 10 --checkpoint %s/k.h5 --every 0", folder), "--every: '0'; accepted");
 	program_refused(program_run(GAS " --events 10 --checkpoint %s", folder), "not a file");
