@@ -143,8 +143,7 @@ static void a_stop_changes_nothing(void **state)
 		end(&whole);
 		end(&broken);
 	}
-	print_message("%d stops; %d runs done, %d collapsed\n", stops, ended[TOUCHSTONE_DONE],
-				  ended[TOUCHSTONE_COLLAPSED]);
+	print_message("%d stops; %d runs done, %d collapsed\n", stops, ended[TOUCHSTONE_DONE], ended[TOUCHSTONE_COLLAPSED]);
 	assert_true(ended[TOUCHSTONE_DONE] > 0 && (brief || ended[TOUCHSTONE_COLLAPSED] > 0));
 }
 
@@ -171,6 +170,27 @@ static void a_state_survives_to_the_last_bit(void **state)
 		touchstone_snapshot_free(&snapshot);
 		touchstone_destroy(again.engine);
 		end(&run);
+	}
+}
+
+/* After a change of units pages begin anywhere: that, too, is part of a state. */
+static void a_stop_after_other_units_changes_nothing(void **state)
+{
+	(void)state;
+	struct random_state random = random_seed(SEED + 3);
+	for (int a = 0; a < ARITHMETICS; a++) {
+		struct scene_recipe recipe = gas(3, 32, 0.4);
+		recipe.restitution.coefficient = 0.8;
+		recipe.form = a % 3 ? TOUCHSTONE_RELATIVE : TOUCHSTONE_ABSOLUTE;
+		struct run whole = begin(&recipe, arithmetics[a], "stable"), broken = begin(&recipe, arithmetics[a], "stable");
+		advance(&whole, 150);
+		advance(&broken, 150);
+		assert_true(touchstone_rescale(whole.engine, 2) && touchstone_rescale(broken.engine, 2));
+		interrupt(&broken, arithmetics[a], "stable", &random);
+		assert_int_equal(advance(&broken, 150).digest, advance(&whole, 150).digest);
+		assert_same_state(&whole, &broken);
+		end(&whole);
+		end(&broken);
 	}
 }
 
@@ -245,9 +265,8 @@ int main(void)
 {
 	brief = getenv("TOUCHSTONE_BRIEF");
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(a_stop_changes_nothing),
-		cmocka_unit_test(a_state_survives_to_the_last_bit),
-		cmocka_unit_test(other_scenes_and_arithmetics_are_refused),
+		cmocka_unit_test(a_stop_changes_nothing),           cmocka_unit_test(a_stop_after_other_units_changes_nothing),
+		cmocka_unit_test(a_state_survives_to_the_last_bit), cmocka_unit_test(other_scenes_and_arithmetics_are_refused),
 		cmocka_unit_test(altered_states_do_no_harm),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
