@@ -277,7 +277,7 @@ void touchstone_explain(const struct touchstone_engine *engine, void (*line)(voi
 /* ------------------------------------------------------------------ the whole state */
 
 /* Rises whenever a state is kept in another way, or goes on differently. */
-enum { TOUCHSTONE_STATE_VERSION = 1, TOUCHSTONE_MOST_FIELDS = 32 };
+enum { TOUCHSTONE_STATE_VERSION = 1, TOUCHSTONE_MOST_FIELDS = 64 };
 
 enum touchstone_content {
 	TOUCHSTONE_NUMBERS,  /* of the engine's arithmetic, exactly: `words` of uint64_t each */

@@ -76,6 +76,7 @@ static struct strips strips_of(struct touchstone_engine *engine)
 		{"flux_against_count", TOUCHSTONE_COUNTS, OF_WALLS, 1, &flux[1].count, sizeof *engine->virtual_wall},
 		{"flux_against", TOUCHSTONE_DOUBLES, OF_WALLS, SUMS, &flux[1].mass, sizeof *engine->virtual_wall},
 	};
+	_Static_assert(sizeof always + sizeof at_walls < sizeof strips.strip, "and the captured pairs");
 	add_strips(&strips, at_walls, sizeof at_walls / sizeof *at_walls);
 	return strips;
 }

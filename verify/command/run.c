@@ -68,8 +68,7 @@ static const struct argp_option options[] = {
 	 "Write the whole state to FILE at the end and on Ctrl-C, so that --resume can go on from it", 4},
 	{"every", EVERY, "N", 0, "and whenever so many more events have been executed", 4},
 	{"resume", RESUME, "FILE", 0,
-	 "Go on from a checkpoint of the same scene, as if the run had never stopped: --events, --time and what is "
-	 "measured "
+	 "Go on from a checkpoint of the same scene as if the run had never stopped: --events, --time and what is measured "
 	 "mean the whole of it",
 	 4},
 	{"cases", CASES, "DIR", 0, "Folder in which scenes are found by name", 5},
@@ -243,7 +242,7 @@ static void tell_how_to_resume(const struct wish *wish)
 		if (strncmp(*word, "--resume", strlen("--resume")) == 0)
 			word += !strchr(*word, '=') && word[1];
 		else
-			fprintf(stderr, strpbrk(*word, " '\"[]{}*?$\\&|;<>()#") ? " \"%s\"" : " %s", *word);
+			fprintf(stderr, strpbrk(*word, " '\"[]{}*?$\\&|;<>()#") ? " '%s'" : " %s", *word);
 	}
 	fprintf(stderr, " --resume %s\n", wish->checkpoint);
 }
