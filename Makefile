@@ -5,6 +5,7 @@
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
 #   make soak              100 runs killed and resumed, KILLS=1000 for more; then 10^9 answers of the correctly rounded
 #                          finder against the exact oracle, QUESTIONS=1e7 for fewer
+#   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++
 #   make CC=clang          another compiler               make BUILD=build/other   another place
 #   make clean, make format
 
@@ -20,7 +21,8 @@ CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
 LDLIBS   := -lhdf5_serial -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
 
-sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*')
+sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*' \
+	-not -path '*/target/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 BENCH    := verify/bench/main.c
@@ -36,7 +38,7 @@ MPI      := $(if $(MPICC),$(BUILD)/touchstone-mpi.so)
 PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
 	$(BUILD)/plugins/example_cxx.so
 
-.PHONY: all report test bench check soak sanitize digests format clean
+.PHONY: all report test bench check soak fuzz sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -71,6 +73,20 @@ bench:
 soak: $(BUILD)/touchstone $(BUILD)/verify/soak/kill_soak $(BUILD)/verify/soak/rounded_soak
 	$(BUILD)/verify/soak/kill_soak $(KILLS)
 	$(BUILD)/verify/soak/rounded_soak $(QUESTIONS)
+
+# Coverage-guided fuzzing of finders and readers, so many seconds each: by libFuzzer, or with FUZZER=afl by AFL++.
+SECONDS_EACH := 60
+FUZZER   := libfuzzer
+FUZZ_CC  := $(if $(filter afl,$(FUZZER)),afl-clang-fast,clang)
+TARGETS  := $(patsubst verify/fuzz/target/%.c,$(BUILD)/fuzz-$(FUZZER)/target/%,$(wildcard verify/fuzz/target/*.c))
+fuzz:
+	@.ci/setup fuzz
+	@echo 'int LLVMFuzzerTestOneInput(void) { return 0; }' | \
+		$(FUZZ_CC) -fsanitize=fuzzer -x c -o /dev/null - >/dev/null 2>&1 || \
+		{ echo 'fuzz: skipped, for $(FUZZ_CC) -fsanitize=fuzzer does not work here' >&2; exit 77; }
+	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/fuzz-$(FUZZER) CC=$(FUZZ_CC) OPTIMISE=-O1 \
+		EXTRA='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(TARGETS)
+	@verify/fuzz/guide $(BUILD)/fuzz-$(FUZZER) $(SECONDS_EACH) $(TARGETS)
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
 sanitize:
@@ -143,6 +159,9 @@ $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
 
+# The planted faults are about the answers of the program that loads them.
+$(BUILD)/verify/test/fuzz_test: LDFLAGS += -rdynamic
+
 $(TESTS): | $(PLUGINS) $(BUILD)/bench $(MPI)
 
 $(BUILD)/touchstone-mpi.so: verify/mpi/ranks_mpi.c verify/campaign/ranks.h
@@ -162,6 +181,11 @@ $(BUILD)/verify/soak/kill_soak: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touc
 $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)
+
+$(BUILD)/target/%: verify/fuzz/target/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
+	@mkdir -p $(@D)
+	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) \
+		$(LDLIBS)
 
 include .ci/install.mk
 

@@ -50,6 +50,8 @@ static struct strips strips_of(struct touchstone_engine *engine)
 		{"stalls", TOUCHSTONE_INTEGERS, OF_PARTICLES, 1, &engine->itinerary->stalls, itineraries},
 		{"now_time", TOUCHSTONE_NUMBERS, OF_ENGINE, 1, &engine->now.time, 0},
 		{"now_page", TOUCHSTONE_DOUBLES, OF_ENGINE, 1, &engine->now.page, 0},
+		{"latest_time", TOUCHSTONE_NUMBERS, OF_ENGINE, 1, &engine->latest.time, 0},
+		{"latest_page", TOUCHSTONE_DOUBLES, OF_ENGINE, 1, &engine->latest.page, 0},
 		{"events", TOUCHSTONE_COUNTS, OF_ENGINE, 1, &engine->events, 0},
 		{"kinds", TOUCHSTONE_COUNTS, OF_ENGINE, sizeof engine->kinds / sizeof *engine->kinds, engine->kinds, 0},
 		{"lookups", TOUCHSTONE_COUNTS, OF_ENGINE, 1, &engine->lookups, 0},
@@ -262,5 +264,7 @@ static bool take_in(struct touchstone_engine *engine, const struct touchstone_sn
 	}
 	if (engine->verdict != TOUCHSTONE_DONE) return true;
 	engine->slack = slack_needed(engine, moment_double(engine->now), typical_speed(engine));
+	unsigned backwards = engine->method->policy & (POLICY_BACKWARDS | POLICY_SEARCH);
+	if (backwards && moment_before(engine->now, engine->latest) && far_back(engine)) engine->search = TOUCHSTONE_ALL;
 	return lay_out(engine);
 }

@@ -136,6 +136,12 @@ struct touchstone_engine {
 	num outermost;          /* distance at which two particles first meet, where there is one species, */
 	uint8_t outermost_kind; /* and what then happens: enum touchstone_kind, or MEETS_NOTHING */
 
+	/* what the method's policy needs (policy.inl) */
+	num contact_time,
+		margin;           /* of POLICY_BRIEF_ELASTIC, and of POLICY_EARLY: how much farther contacts are looked for */
+	double search_part;   /* of POLICY_SEARCH: first step, as a part of the contact distance */
+	struct moment latest; /* that the run has come to, where it may go back */
+
 	/* virtual walls; side and crossed are NULL without */
 	size_t virtual_wall_count;
 	struct virtual_wall *virtual_wall;

@@ -8,6 +8,14 @@ enum sieving {
 	SIEVE_ORDER,  /* and those that surely meet later than another pair */
 };
 
+/* What the engine does under a method besides asking its finder (engine/policy.inl). */
+enum policy {
+	POLICY_BACKWARDS = 1 << 0,     /* an event before now is executed: the run goes back */
+	POLICY_SEARCH = 1 << 1,        /* an event that finds its bodies overlapped is moved back to where they do not */
+	POLICY_EARLY = 1 << 2,         /* contacts are looked for at a slightly larger distance */
+	POLICY_BRIEF_ELASTIC = 1 << 3, /* soon after a collision no energy is lost */
+};
+
 struct method {
 	const char *name;
 	enum sieving sieve;
@@ -15,6 +23,7 @@ struct method {
 	plane_finder *ball_plane;
 	half_space_finder *half_space;
 	claim_maker *claim; /* what the method's file claims; NULL: nothing */
+	unsigned policy;    /* of enum policy */
 };
 
 enum {
@@ -23,6 +32,11 @@ enum {
 	GUARDED,
 	COMPENSATED,
 	ROUNDED,
+	REWIND,
+	SKIP,
+	SEARCH,
+	SHRINK,
+	TC,
 	NUMERICAL_RECIPES,
 	KAHAN,
 	STERBENZ,
@@ -40,6 +54,24 @@ static const struct method methods[METHODS] = {
 					 stable_half_space, compensated_claim},
 	[ROUNDED] = {"rounded", SIEVE_ORDER, rounded_ball_ball, rounded_ball_leave, rounded_ball_plane, rounded_half_space,
 				 rounded_claim},
+	[REWIND] = {.name = "rewind",
+				.ball_ball = naive_ball_ball,
+				.ball_plane = naive_ball_plane,
+				.policy = POLICY_BACKWARDS},
+	[SKIP] = {.name = "skip", .sieve = SIEVE_MISSES, .ball_ball = skip_ball_ball, .ball_plane = skip_ball_plane},
+	[SEARCH] = {.name = "search",
+				.ball_ball = naive_ball_ball,
+				.ball_plane = naive_ball_plane,
+				.policy = POLICY_SEARCH},
+	[SHRINK] = {.name = "shrink",
+				.ball_ball = shrink_ball_ball,
+				.ball_plane = shrink_ball_plane,
+				.policy = POLICY_EARLY},
+	[TC] = {.name = "tc",
+			.sieve = SIEVE_ORDER,
+			.ball_ball = stable_ball_ball,
+			.ball_plane = stable_ball_plane,
+			.policy = POLICY_BRIEF_ELASTIC},
 	[NUMERICAL_RECIPES] = {.name = "numerical-recipes",
 						   .ball_ball = numerical_recipes_ball_ball,
 						   .ball_leave = numerical_recipes_ball_leave},
@@ -50,7 +82,7 @@ static const struct method methods[METHODS] = {
 
 static const struct method *find_method(const char *name, char error[160])
 {
-	char known[112] = "";
+	char known[128] = "";
 	for (int m = 0; m < METHODS; m++) {
 		if (strcmp(methods[m].name, name) == 0) return &methods[m];
 		snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", m ? ", " : "", methods[m].name);

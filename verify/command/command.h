@@ -20,6 +20,7 @@ int command_run(int argc, char **argv);
 int command_reproduce(int argc, char **argv);
 int command_grade(int argc, char **argv);
 int command_chart(int argc, char **argv);
+int command_fuzz(int argc, char **argv);
 int command_replay(int argc, char **argv);
 int command_campaign(int argc, char **argv);
 int command_merge(int argc, char **argv);

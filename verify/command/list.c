@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "campaign/campaign_file.h"
 #include "command/cases.h"
@@ -39,6 +40,11 @@ static const struct {
 	{"guarded", "a simulator's guards: slow balls and balls that overlap have no event"},
 	{"compensated", "the stable rule over a, b, c and a discriminant formed in twice the precision"},
 	{"rounded", "the time of the stable rule, correctly rounded"},
+	{"rewind", "2014 paper, section 3: textbook roots, negative times executed, the clock going back"},
+	{"skip", "2014 paper, section 3: bodies that overlap are not tested until they have parted"},
+	{"search", "Allen, Frenkel and Talbot 1989: an overlap at contact is walked back to where there is none"},
+	{"shrink", "Poeschel and Schwager 2005: contacts are looked for a little early"},
+	{"tc", "Luding and McNamara 1998: elastic within a contact time after a collision"},
 	{"numerical-recipes", "finder only: Press and others, eqs. 5.6.4 and 5.6.5"},
 	{"kahan", "finder only: Kahan's discriminant, by fused multiply-adds"},
 	{"sterbenz", "finder only: Sterbenz's scaling, then as kahan"},
@@ -115,19 +121,31 @@ static int is_scene(const struct dirent *entry)
 	return *entry->d_name != '.' && ending && strcmp(ending, ".yaml") == 0;
 }
 
-/* A scene that cannot be read is said so; the others are listed all the same. */
-static bool list_case(const char *folder, const char *base)
+/* A scene in a folder of the cases, by which it is then called as well. One that cannot be read is said so; the others
+ * are listed all the same. */
+static bool list_scene(const char *folder, const char *within, const char *base)
 {
-	char *path, error[STORE_ERROR];
-	if (asprintf(&path, "%s/%s", folder, base) < 0) return false;
+	char *path, name[80], error[STORE_ERROR];
+	if (asprintf(&path, "%s/%s%s", folder, within, base) < 0) return false;
 	struct scene_file *file = scene_file_open(path, 0, NULL, error);
 	free(path);
+	if (file) snprintf(name, sizeof name, "%s%s", within, file->name);
 	if (file)
-		print(file->name, file->title);
+		print(name, file->title);
 	else
 		refuse("%s", error);
 	scene_file_close(file);
 	return file;
+}
+
+static bool list_case(const char *folder, const char *base)
+{
+	return list_scene(folder, "", base);
+}
+
+static bool list_stress(const char *folder, const char *base)
+{
+	return list_scene(folder, "stress/", base);
 }
 
 /* The same for a campaign, whose scene may be one of the cases. */
@@ -165,7 +183,11 @@ static bool list_entries(const char *folder, const char *within, bool (*list)(co
 
 static bool list_cases(const char *folder)
 {
-	return list_entries(folder, "", list_case);
+	char *stress;
+	if (asprintf(&stress, "%s/stress", folder) < 0) return false;
+	bool stressed = access(stress, R_OK) == 0;
+	free(stress);
+	return list_entries(folder, "", list_case) & (!stressed || list_entries(folder, "/stress", list_stress));
 }
 
 static bool list_campaigns(const char *folder)

@@ -19,6 +19,7 @@ static const struct command {
 	{"reproduce", "the papers' figures, stored as results", command_reproduce},
 	{"grade", "finders of event times, held against the exact answers", command_grade},
 	{"chart", "speed against accuracy, measured here and now", command_chart},
+	{"fuzz", "random search for the smallest input that breaks a finder", command_fuzz},
 	{"replay", "one input through every method and arithmetic, beside the exact answer", command_replay},
 	{"campaign", "runs over a grid of parameters and seeds, each made once", command_campaign},
 	{"merge", "the stores of a campaign's shards put together", command_merge},

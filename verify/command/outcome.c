@@ -89,8 +89,11 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	touchstone_status(simulation->engine, &outcome->status);
 	if (limits.events < UINT64_MAX) limits.events -= outcome->status.events;
 	limits.time += outcome->time_begun;
+	const struct touchstone_observer *look = observed ? &observer : NULL;
+	if (plan->trace) limits.stop = interrupt_flag();
 	outcome->clock_begun = progress_clock() - outcome->wall_seconds;
-	outcome->interrupted = !simulation_advance(simulation, &limits, observed ? &observer : NULL, progress, before);
+	outcome->interrupted = plan->trace ? !trace_run(&outcome->trace, simulation->engine, &limits, look)
+									   : !simulation_advance(simulation, &limits, look, progress, before);
 	checkpointing_end(simulation);
 	outcome->wall_seconds = progress_clock() - outcome->clock_begun;
 	touchstone_status(simulation->engine, &outcome->status);
@@ -102,6 +105,17 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 		reason(outcome, "no event is left after t = %.17g", outcome->status.time);
 	for (size_t w = 0; w < outcome->virtual_wall_count; w++) touchstone_flux(simulation->engine, w, outcome->fluxes[w]);
 	if (plan->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
+}
+
+/* The same run once more, watched for what goes wrong. */
+static void judge(struct outcome *outcome, const struct run_plan *plan, const struct simulation *simulation)
+{
+	const struct watch watch = {interrupt_flag(), NULL, NULL};
+	char why[160];
+	outcome->failed = !failure_find(&simulation->scene, plan->file->equilibrate, plan->file->arithmetic,
+									plan->file->method, &plan->limits, &watch, &outcome->failure, why);
+	if (outcome->failed) snprintf(outcome->error, STORE_ERROR, "%s", why);
+	outcome->interrupted = outcome->failure.stopped;
 }
 
 /* Writes the particles as they are now; their species and the box are those of the scene. */
@@ -179,14 +193,16 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	uint64_t before = 0;
 	if (!measuring) {
 		measuring = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
-		if (measuring && plan->against && plan->limits.events > 0) {
+		if (measuring && plan->against && plan->limits.events > 0)
 			measuring = compare(outcome, plan, simulation, progress, &before);
-			outcome->failed = *outcome->error;
-		}
-		if (measuring) begin_measuring(outcome, plan, simulation);
+		if (measuring && plan->trace && !trace_begin(&outcome->trace, simulation->engine))
+			snprintf(outcome->error, STORE_ERROR, "out of memory");
+		outcome->failed = *outcome->error && !outcome->checkpoints;
+		if (measuring && !outcome->failed) begin_measuring(outcome, plan, simulation);
 	}
 	checkpointing.measuring = measuring;
-	if (measuring) measure(outcome, plan, simulation, progress, before);
+	if (measuring && !outcome->failed) measure(outcome, plan, simulation, progress, before);
+	if (measuring && plan->failure && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
 	if (plan->xyz && !outcome->failed) write_particles(simulation, plan->xyz, outcome->error);
 }
 
@@ -214,6 +230,7 @@ void outcome_free(struct outcome *outcome)
 	three_body_end(&outcome->three_body);
 	free(outcome->impact);
 	free(outcome->fluxes);
+	trace_free(&outcome->trace);
 }
 
 uint64_t outcome_peak_memory(void)

@@ -10,16 +10,19 @@
 #include "campaign/campaign.h"
 #include "command/interrupt.h"
 #include "command/progress.h"
+#include "command/table_print.h"
 #include "figure/figure.h"
 
 const struct figure_entry figures[] = {
 	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide", figure_impact},
+	{"fig4", "2014, figs. 4 and 6: three bodies in contact, event by event, by each method", figure_stepping},
 	{"fig5", "2014, fig. 5: how often three bodies meet, over restitution and density", figure_three_body},
 	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts", figure_collapse},
 	{"ladder", "2014, fig. 5 at 53 bits: how rates of what goes wrong fall with the bits carried", figure_ladder},
 	{"horizon", "for how many events per particle a run can be trusted, over the bits it carries", figure_horizon},
 	{"time-and-place", "what late times and far places do to impacts, three-body events and the horizon",
 	 figure_time_place},
+	{"atlas", "what each method does in each stress scene, and from which precision on it survives", figure_atlas},
 	{0},
 };
 enum { FIGURES = sizeof figures / sizeof *figures - 1 };
@@ -107,6 +110,7 @@ static int make(int f, const struct arguments *arguments)
 	double seconds = progress_clock() - began;
 	result_made_by(result, command, seconds, *TOUCHSTONE_REVISION ? TOUCHSTONE_REVISION : NULL);
 	bool written = result_write(result, arguments->results, error);
+	if (written && figures[f].make == figure_atlas) table_print(result, 0); /* it is one table */
 	result_free(result);
 	if (!written) return refuse("%s", error);
 	if (!interrupted()) campaign_forget(figures[f].name, arguments->results);

@@ -83,5 +83,8 @@ uint64_t scene_identity(const struct touchstone_scene *scene)
 	sum = with_restitution(sum, &scene->restitution);
 	sum = with_word(sum, scene->form);
 	sum = with_numbers(sum, &scene->clock, 1);
+	sum = with_numbers(sum, &scene->contact_time, 1);
+	sum = with_numbers(sum, &scene->shrinking, 1);
+	sum = with_numbers(sum, &scene->search_step, 1);
 	return with_word(sum, scene->grain);
 }
