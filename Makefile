@@ -3,7 +3,8 @@
 #   make report            the papers' figures at quick size, as pages in build/report
 #   make test              all tests, also under sanitizers, and the digests of other compilers and optimisations
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
-#   make soak              10^9 answers of the correctly rounded finder against the exact oracle; QUESTIONS=1e7 for fewer
+#   make soak              100 runs killed and resumed, KILLS=1000 for more; then 10^9 answers of the correctly rounded
+#                          finder against the exact oracle, QUESTIONS=1e7 for fewer
 #   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++
 #   make CC=clang          another compiler               make BUILD=build/other   another place
 #   make live              the convection scene in a browser: build/live.html, one file; make live-test drives it in Chromium
@@ -19,7 +20,7 @@ WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
 CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp -Wno-psabi $(EXTRA)
 CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
-LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lsqlite3 -l:libmpfr.a -l:libgmp.a -lm
+LDLIBS   := -lhdf5_serial -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lsqlite3 -l:libmpfr.a -l:libgmp.a -lm
 
 sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*' \
 	-not -path '*/target/*' -not -path '*/live/live.c' -not -path '*/live/recipes.c')
@@ -70,8 +71,9 @@ bench:
 	$(BUILD)/bench --baseline $(BASELINE) --results $(BUILD)/results $(if $(FULL),--full) $(if $(STORE),--store)
 	$(BUILD)/touchstone report --results $(BUILD)/results --output $(BUILD)/report
 
-soak: $(BUILD)/verify/soak/rounded_soak
-	$< $(QUESTIONS)
+soak: $(BUILD)/touchstone $(BUILD)/verify/soak/kill_soak $(BUILD)/verify/soak/rounded_soak
+	$(BUILD)/verify/soak/kill_soak $(KILLS)
+	$(BUILD)/verify/soak/rounded_soak $(QUESTIONS)
 
 # Coverage-guided fuzzing of finders and readers, so many seconds each: by libFuzzer, or with FUZZER=afl by AFL++.
 SECONDS_EACH := 60
@@ -130,6 +132,9 @@ $(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/
 cases_folder := -DTOUCHSTONE_CASES='"$(CURDIR)/cases"'
 $(BUILD)/object/verify/command/cases.o: CPPFLAGS += $(cases_folder)
 
+# Debian keeps HDF5's headers apart, one folder for each way of building it.
+$(BUILD)/object/verify/store/checkpoint_tree.o: CPPFLAGS += -isystem /usr/include/hdf5/serial
+
 # Templates and plot scripts are part of the program.
 $(BUILD)/object/reports/page.o $(BUILD)/object/reports/junit.o: $(wildcard reports/templates/*)
 $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
@@ -173,6 +178,7 @@ $(BUILD)/plugins/%_cxx.so: verify/test/plugins/%.c lib/touchstone.h
 	@mkdir -p $(@D)
 	$(call say,plug-in $@) g++ -x c++ -std=c++11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
 
+$(BUILD)/verify/soak/kill_soak: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
 $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)

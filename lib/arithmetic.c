@@ -52,7 +52,35 @@ struct touchstone_engine *touchstone_create(const struct touchstone_scene *scene
 											const char *method, char error[160])
 {
 	const struct unit *unit = choose(arithmetic, error);
-	return unit ? unit->create(scene, method, error) : NULL;
+	return unit ? unit->create(scene, method, NULL, error) : NULL;
+}
+
+struct touchstone_engine *touchstone_restore(const struct touchstone_scene *scene, const char *arithmetic,
+											 const char *method, const struct touchstone_snapshot *snapshot,
+											 char error[160])
+{
+	const struct unit *unit = choose(arithmetic, error);
+	return unit ? unit->create(scene, method, snapshot, error) : NULL;
+}
+
+bool touchstone_save(const struct touchstone_engine *engine, struct touchstone_snapshot *snapshot)
+{
+	return unit_of(engine)->save(engine, snapshot);
+}
+
+size_t touchstone_field_bytes(const struct touchstone_snapshot *snapshot, const struct touchstone_field *field)
+{
+	size_t each = field->content == TOUCHSTONE_NUMBERS    ? sizeof(uint64_t) * (size_t)snapshot->words
+				  : field->content == TOUCHSTONE_INTEGERS ? sizeof(int32_t)
+				  : field->content == TOUCHSTONE_BYTES    ? 1
+														  : sizeof(uint64_t);
+	return field->rows * field->columns * each;
+}
+
+void touchstone_snapshot_free(struct touchstone_snapshot *snapshot)
+{
+	for (size_t f = 0; f < snapshot->count; f++) free(snapshot->field[f].data);
+	*snapshot = (struct touchstone_snapshot){0};
 }
 
 void touchstone_destroy(struct touchstone_engine *engine)

@@ -296,6 +296,55 @@ void touchstone_flux(const struct touchstone_engine *engine, size_t wall, struct
 void touchstone_explain(const struct touchstone_engine *engine, void (*line)(void *context, const char *text),
 						void *context);
 
+/* ------------------------------------------------------------------ the whole state */
+
+/* Rises whenever a state is kept in another way, or goes on differently. */
+enum { TOUCHSTONE_STATE_VERSION = 1, TOUCHSTONE_MOST_FIELDS = 64 };
+
+enum touchstone_content {
+	TOUCHSTONE_NUMBERS,  /* of the engine's arithmetic, exactly: `words` of uint64_t each */
+	TOUCHSTONE_DOUBLES,  /* double */
+	TOUCHSTONE_COUNTS,   /* uint64_t */
+	TOUCHSTONE_INTEGERS, /* int32_t */
+	TOUCHSTONE_BYTES,    /* char */
+};
+
+/* One part of a state, such as the positions: a table, row by row. Where rows are particles they stand as in the
+ * scene. */
+struct touchstone_field {
+	char name[24];
+	enum touchstone_content content;
+	size_t rows, columns;
+	void *data; /* from malloc */
+};
+
+/* All that decides how a run goes on, and what it has counted: what each particle's last event left, tracked states,
+ * clocks, counters, digest. Where to look next is no part of it (design, section 2), nor is anything random, for no
+ * engine draws.
+ *
+ * The words of a number are the bytes of its IEEE 754 encoding, lowest first, filled with zeros (binary32, binary64,
+ * binary128, extended; of short those of the double); the two doubles of a twin; of mpfr its exponent, its kind (1 an
+ * infinity, 2 a zero, 3 a regular number, 0 none; negative for a negative one) and its limbs, lowest first. */
+struct touchstone_snapshot {
+	int words;    /* per number */
+	bool doubles; /* each word is a double, and the number their sum */
+	size_t count;
+	struct touchstone_field field[TOUCHSTONE_MOST_FIELDS];
+};
+
+/* Copies an engine's state; end with touchstone_snapshot_free. False, and nothing to free, when out of memory. */
+bool touchstone_save(const struct touchstone_engine *engine, struct touchstone_snapshot *snapshot);
+void touchstone_snapshot_free(struct touchstone_snapshot *snapshot);
+size_t touchstone_field_bytes(const struct touchstone_snapshot *snapshot, const struct touchstone_field *field);
+
+/* Makes an engine as touchstone_create() does, but in a state that was saved: its events, counters and digest go on as
+ * those of the engine it was saved from would have, bit for bit. Scene, arithmetic and method must be the same; search
+ * and size of cells may be others. NULL, with one line in `error`, also when the state is none of this scene. The
+ * snapshot stays the caller's. */
+struct touchstone_engine *touchstone_restore(const struct touchstone_scene *scene, const char *arithmetic,
+											 const char *method, const struct touchstone_snapshot *snapshot,
+											 char error[160]);
+
 /* ------------------------------------------------------------------ a ball over a plate */
 
 /* One ball of diameter 1, dropped at rest from plate + 1 onto a plate (2014 paper, section 5 and fig. 7): no cells, no

@@ -1,6 +1,8 @@
 #include "aside.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <libgen.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,6 +58,33 @@ bool aside_keep(struct aside *file, char error[REPORT_ERROR])
 	}
 	forget(file);
 	return whole;
+}
+
+/* Has the names in the folder of a path written to disk; where a file system cannot, nothing is lost by trying. */
+static void settle_folder(const char *path)
+{
+	char *copy = strdup(path);
+	int folder = copy ? open(dirname(copy), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+	if (folder >= 0) {
+		fsync(folder);
+		close(folder);
+	}
+	free(copy);
+}
+
+bool aside_keep_for_good(struct aside *file, char error[REPORT_ERROR])
+{
+	char *path = strdup(file->path);
+	if (fflush(file->stream) != 0 || fsync(fileno(file->stream)) != 0) {
+		refuse(error, file->path, errno);
+		aside_drop(file);
+		free(path);
+		return false;
+	}
+	bool kept = aside_keep(file, error);
+	if (kept && path) settle_folder(path);
+	free(path);
+	return kept;
 }
 
 void aside_drop(struct aside *file)

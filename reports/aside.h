@@ -21,6 +21,9 @@ __attribute__((format(printf, 3, 4))) bool aside_open(struct aside *file, char e
  * could not be written. */
 bool aside_keep(struct aside *file, char error[REPORT_ERROR]);
 
+/* The same, and it is there even if the machine fails now: file and folder have reached the disk. */
+bool aside_keep_for_good(struct aside *file, char error[REPORT_ERROR]);
+
 /* Closes the file and removes it; whatever was at the path before stays. */
 void aside_drop(struct aside *file);
 

@@ -61,20 +61,19 @@ static void record(struct touchstone_engine *engine, uint64_t rank)
 	engine->events++;
 }
 
-/* Counts an event against a particle for which hardly any time has passed since its last one. Many simultaneous
- * contacts in a row are in order (each of n balls in a cradle has up to n); far beyond that a particle is not getting
- * anywhere. */
-static void count_stall(struct touchstone_engine *engine, uint32_t i, bool stalled)
+/* Counts an event, with another entry or a wall, against a particle for which hardly any time has passed since its last
+ * one. Many simultaneous contacts in a row are in order (each of n balls in a cradle has up to n); far beyond that a
+ * particle is not getting anywhere. */
+static void count_stall(struct touchstone_engine *engine, uint32_t i, uint8_t meets, uint32_t other, bool stalled)
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
 	itinerary->stalls = stalled ? itinerary->stalls + 1 : 0;
 	if (itinerary->stalls < 256 + 4 * engine->count || engine->verdict != TOUCHSTONE_DONE) return;
 	engine->verdict = TOUCHSTONE_COLLAPSED;
 	engine->blamed[0] = engine->blamed[1] = itinerary->id;
-	if (with_particle(itinerary->meets)) engine->blamed[1] = engine->itinerary[entry_particle(itinerary->partner)].id;
+	if (with_particle(meets)) engine->blamed[1] = other = engine->itinerary[entry_particle(other)].id;
 	snprintf(engine->reason, sizeof engine->reason, "%u events of particle %u (the last with %s %u) at t = %.17g",
-			 itinerary->stalls, itinerary->id, met_name(itinerary->meets),
-			 with_particle(itinerary->meets) ? engine->blamed[1] : itinerary->partner, moment_double(engine->now));
+			 itinerary->stalls, itinerary->id, met_name(meets), other, moment_double(engine->now));
 }
 
 /* Whether a particle's last event was now, as far as the clock can tell: within two units in its last place. (A ball
@@ -200,8 +199,8 @@ static inline void part(struct touchstone_engine *engine, const struct encounter
 	engine->kinds[event->kind]++;
 	engine->itinerary[i].changes++;
 	engine->itinerary[j].changes++;
-	count_stall(engine, i, encounter->i_stalls);
-	count_stall(engine, j, encounter->j_stalls);
+	count_stall(engine, i, (uint8_t)event->kind, j, encounter->i_stalls);
+	count_stall(engine, j, (uint8_t)event->kind, i, encounter->j_stalls);
 }
 
 static void exchange_heat(struct touchstone_engine *engine, uint32_t i, uint32_t j);
@@ -260,5 +259,5 @@ static void rebound(struct touchstone_engine *engine, uint32_t i, uint32_t numbe
 	record(engine, rank_of(engine, i, number, TOUCHSTONE_WALL));
 	engine->kinds[TOUCHSTONE_WALL]++;
 	engine->itinerary[i].changes++;
-	count_stall(engine, i, stalled);
+	count_stall(engine, i, TOUCHSTONE_WALL, number, stalled);
 }

@@ -1,13 +1,4 @@
-/* From a scene to an engine, and what an engine says of itself. */
-
-static bool refuse(char error[160], const char *format, ...)
-{
-	va_list arguments;
-	va_start(arguments, format);
-	vsnprintf(error, 160, format, arguments);
-	va_end(arguments);
-	return false;
-}
+/* From a scene, and perhaps a state that was saved, to an engine. */
 
 /* A method that an engine can run by: it has answers for balls and for planes. */
 static const struct method *find_policy(const char *name, char error[160])
@@ -224,8 +215,17 @@ static bool scene_makes_sense(const struct touchstone_scene *scene, char error[1
 	return refuse(error, "%s: %.100s", complaint.key, complaint.text);
 }
 
+/* From the start state: states are read from the positions, for once. */
+static bool begin(struct touchstone_engine *engine)
+{
+	engine->slack = slack_needed(engine, 0, typical_speed(engine));
+	bool enough = (engine->count < 2 || lay_out_cells(engine)) && read_states(engine);
+	read_sides(engine);
+	return enough && look_ahead(engine);
+}
+
 static struct touchstone_engine *engine_create(const struct touchstone_scene *scene, const char *method,
-											   char error[160])
+											   const struct touchstone_snapshot *snapshot, char error[160])
 {
 	if (!scene_makes_sense(scene, error)) return NULL;
 	const struct method *chosen = find_policy(method, error);
@@ -247,15 +247,11 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	bool made = set_species_and_walls(engine, scene) && set_potentials(engine, scene) &&
 				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_heat(engine, scene) &&
 				set_sieve(engine);
-	if (made) {
-		read_policy(engine, scene);
-		engine->slack = slack_needed(engine, 0, typical_speed(engine));
-		made = (engine->count < 2 || lay_out_cells(engine)) && read_states(engine);
-		read_sides(engine);
-		made = made && look_ahead(engine);
-	}
+	if (made) read_policy(engine, scene);
+	*error = '\0';
+	made = made && (snapshot ? take_in(engine, snapshot, error) : begin(engine));
 	if (!made) {
-		refuse(error, "not enough memory for %zu particles", scene->particle_count);
+		if (!*error) refuse(error, "not enough memory for %zu particles", scene->particle_count);
 		engine_destroy(engine);
 		return NULL;
 	}

@@ -78,6 +78,7 @@ extern const struct unit THIS_UNIT;
 #include "engine/run.inl"
 
 #include "engine/create_states.inl"
+#include "engine/snapshot.inl"
 
 #include "engine/create.inl"
 

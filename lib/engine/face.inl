@@ -219,6 +219,7 @@ const struct unit THIS_UNIT = {
 	.captured = engine_captured,
 	.side = engine_side,
 	.flux = engine_flux,
+	.save = engine_save,
 	.explain = engine_explain,
 	.drop = unit_drop,
 	.find = unit_find,

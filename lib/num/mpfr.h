@@ -186,6 +186,44 @@ static inline bool is_finite(num a)
 	return a.kind != MPFR_NAN_KIND && a.kind != MPFR_INF_KIND && a.kind != -MPFR_INF_KIND;
 }
 
+/* To be kept: a number is its exponent, its kind and as many limbs as its precision asks for; where it has no
+ * significand, the exponent and the limbs are zero. */
+enum { num_words_are_doubles = 0 };
+
+static inline int num_limbs(void)
+{
+	return (num_precision + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS;
+}
+
+static inline int num_words(void)
+{
+	return 2 + num_limbs();
+}
+
+static inline void to_words(num x, uint64_t *words)
+{
+	bool regular = x.kind == MPFR_REGULAR_KIND || x.kind == -MPFR_REGULAR_KIND;
+	words[0] = regular ? (uint64_t)x.exponent : 0;
+	words[1] = (uint64_t)x.kind;
+	for (int l = 0; l < num_limbs(); l++) words[2 + l] = regular ? x.limbs[l] : 0;
+}
+
+/* False when the words are those of no number of this arithmetic. */
+static inline bool from_words(const uint64_t *words, num *x)
+{
+	int64_t exponent = (int64_t)words[0], kind = (int64_t)words[1];
+	int limbs = num_limbs(), unused = limbs * GMP_NUMB_BITS - num_precision;
+	bool regular = kind == MPFR_REGULAR_KIND || kind == -MPFR_REGULAR_KIND;
+	if (kind < -MPFR_REGULAR_KIND || kind > MPFR_REGULAR_KIND) return false;
+	x->precision = num_precision;
+	x->kind = (int)kind;
+	x->exponent = exponent;
+	for (int l = 0; l < limbs; l++) x->limbs[l] = words[2 + l];
+	if (!regular) return exponent == 0;
+	bool in_range = exponent >= mpfr_get_emin() && exponent <= mpfr_get_emax();
+	return in_range && x->limbs[limbs - 1] >> 63 && !(x->limbs[0] & ((UINT64_C(1) << unused) - 1));
+}
+
 /* a b + c, rounded once. */
 static inline num fused(num a, num b, num c)
 {

@@ -6,6 +6,8 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "num/conversion.h"
 
@@ -75,6 +77,32 @@ static inline bool less(num a, num b)
 static inline bool is_finite(num a)
 {
 	return isfinite(a);
+}
+
+/* To be kept: its bytes as they stand in memory. A long double has ten of them. */
+enum { num_bytes = num_significand_bits == 64 ? 10 : (int)sizeof(num), num_words_are_doubles = num_bytes == 8 };
+
+/* Words of 64 bits that keep any number. */
+static inline int num_words(void)
+{
+	return (num_bytes + 7) / 8;
+}
+
+static inline void to_words(num x, uint64_t *words)
+{
+	memset(words, 0, (size_t)num_words() * sizeof *words);
+	memcpy(words, &x, num_bytes);
+}
+
+/* False when the words are those of no number of this arithmetic. */
+static inline bool from_words(const uint64_t *words, num *x)
+{
+	uint64_t again[2];
+	*x = 0;
+	memcpy(x, words, num_bytes);
+	to_words(*x, again);
+	if (num_bytes == 10 && words[0] >> 63 != ((words[1] & 0x7fff) != 0)) return false; /* no processor makes such */
+	return memcmp(again, words, (size_t)num_words() * sizeof *words) == 0;
 }
 
 #endif

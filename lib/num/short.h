@@ -116,6 +116,28 @@ static inline bool is_finite(num a)
 	return isfinite(a);
 }
 
+/* To be kept: a number is a word of 64 bits, a double. */
+enum { num_words_are_doubles = 1 };
+
+static inline int num_words(void)
+{
+	return 1;
+}
+
+static inline void to_words(num x, uint64_t *words)
+{
+	memcpy(words, &x, sizeof x);
+}
+
+/* False when the words are those of no number of this arithmetic. */
+static inline bool from_words(const uint64_t *words, num *x)
+{
+	double value;
+	memcpy(&value, words, sizeof value);
+	*x = from_double(value);
+	return memcmp(x, words, sizeof *x) == 0;
+}
+
 /* a b + c, rounded once, unless a b underflows. The product is a double; the sum is rounded to odd, which keeps what a
  * second rounding must know of the bits it dropped. */
 static inline num fused(num a, num b, num c)

@@ -13,6 +13,8 @@
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "num/conversion.h"
 #include "num/error_free.h"
@@ -119,6 +121,28 @@ static inline bool less(num a, num b)
 static inline bool is_finite(num a)
 {
 	return isfinite(a.high);
+}
+
+/* To be kept: a number is two words of 64 bits, its doubles, the high one first. */
+enum { num_words_are_doubles = 1 };
+
+static inline int num_words(void)
+{
+	return 2;
+}
+
+static inline void to_words(num x, uint64_t *words)
+{
+	memcpy(words, &x.high, sizeof x.high);
+	memcpy(words + 1, &x.low, sizeof x.low);
+}
+
+/* False when the words are those of no number of this arithmetic. */
+static inline bool from_words(const uint64_t *words, num *x)
+{
+	memcpy(&x->high, words, sizeof x->high);
+	memcpy(&x->low, words + 1, sizeof x->low);
+	return isfinite(x->high) ? x->high + x->low == x->high : x->low == 0;
 }
 
 /* The sum of a few doubles, which it overwrites, as a twin: passes of exact sums (VecSum) sift the rounding errors

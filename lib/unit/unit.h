@@ -9,7 +9,9 @@ struct unit {
 	const char *name;
 	bool (*choose)(int bits); /* sets this thread's working precision; false when the unit does not offer it */
 	int (*bits)(void);        /* the working precision */
-	struct touchstone_engine *(*create)(const struct touchstone_scene *, const char *method, char error[160]);
+	struct touchstone_engine *(*create)(const struct touchstone_scene *, const char *method,
+										const struct touchstone_snapshot *, /* or NULL: from the start */
+										char error[160]);
 	void (*destroy)(struct touchstone_engine *);
 	enum touchstone_verdict (*run)(struct touchstone_engine *, const struct touchstone_limits *,
 								   const struct touchstone_observer *);
@@ -26,6 +28,7 @@ struct unit {
 	size_t (*captured)(const struct touchstone_engine *, uint32_t particle, struct touchstone_captured *, size_t room);
 	int (*side)(const struct touchstone_engine *, uint32_t particle, size_t wall);
 	void (*flux)(const struct touchstone_engine *, size_t wall, struct touchstone_flux flux[2]);
+	bool (*save)(const struct touchstone_engine *, struct touchstone_snapshot *);
 	void (*explain)(const struct touchstone_engine *, void (*line)(void *, const char *), void *);
 	bool (*drop)(const char *method, const struct touchstone_drop *, size_t, struct touchstone_landing *,
 				 touchstone_bounce *, void *, char error[160]);

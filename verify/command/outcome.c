@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "command/checkpointing.h"
 #include "command/command.h"
 #include "command/interrupt.h"
 #include "measure/course.h"
@@ -36,25 +37,39 @@ __attribute__((format(printf, 2, 3))) static void reason(struct outcome *outcome
 static bool equilibrate(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 						struct simulation_progress *progress, uint64_t *executed)
 {
-	struct touchstone_limits limits = {.events = course_events(plan->file->equilibrate, outcome->particles),
-									   .time = INFINITY};
+	struct touchstone_status begun;
+	touchstone_status(simulation->engine, &begun);
+	uint64_t wanted = course_events(plan->file->equilibrate, outcome->particles);
+	struct touchstone_limits limits = {.events = wanted - begun.events, .time = INFINITY};
 	uint64_t then = plan->limits.events < UINT64_MAX ? plan->limits.events : 0;
 	touchstone_elastic(simulation->engine, true);
 	outcome->interrupted = !simulation_advance(simulation, &limits, NULL, progress, then);
 	touchstone_elastic(simulation->engine, false);
 	touchstone_status(simulation->engine, &outcome->status);
-	*executed = outcome->status.events;
+	*executed = outcome->status.events - begun.events;
 	if (!outcome->interrupted && outcome->status.verdict == TOUCHSTONE_DONE) return true;
+	checkpointing_end(simulation);
+	uint64_t events = outcome->status.events;
 	char why[sizeof outcome->status.reason];
 	memcpy(why, outcome->status.reason, sizeof why);
 	touchstone_recount(simulation->engine);
 	touchstone_status(simulation->engine, &outcome->status);
 	if (outcome->interrupted)
-		reason(outcome, "stopped by a signal after %llu events of equilibration", (unsigned long long)*executed);
+		reason(outcome, "stopped by a signal after %llu events of equilibration", (unsigned long long)events);
 	else
 		reason(outcome, "during equilibration: %.130s", why);
 	outcome->time_begun = outcome->status.time;
 	return false;
+}
+
+/* Counting begins here. */
+static void begin_measuring(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation)
+{
+	touchstone_recount(simulation->engine);
+	touchstone_status(simulation->engine, &outcome->status);
+	outcome->conservation = plan->conservation;
+	outcome->time_begun = outcome->status.time;
+	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
 }
 
 /* Shows an event to all that look on. */
@@ -71,23 +86,21 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	struct touchstone_observer observer = {see, outcome};
 	bool observed = outcome->impact || outcome->three_bodies;
 	struct touchstone_limits limits = plan->limits;
-	touchstone_recount(simulation->engine);
 	touchstone_status(simulation->engine, &outcome->status);
-	outcome->conservation = plan->conservation;
-	outcome->time_begun = outcome->status.time;
+	if (limits.events < UINT64_MAX) limits.events -= outcome->status.events;
 	limits.time += outcome->time_begun;
-	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
-	double clock = progress_clock();
 	const struct touchstone_observer *look = observed ? &observer : NULL;
 	if (plan->trace) limits.stop = interrupt_flag();
+	outcome->clock_begun = progress_clock() - outcome->wall_seconds;
 	outcome->interrupted = plan->trace ? !trace_run(&outcome->trace, simulation->engine, &limits, look)
 									   : !simulation_advance(simulation, &limits, look, progress, before);
-	outcome->wall_seconds = progress_clock() - clock;
+	checkpointing_end(simulation);
+	outcome->wall_seconds = progress_clock() - outcome->clock_begun;
 	touchstone_status(simulation->engine, &outcome->status);
 	if (outcome->interrupted)
 		reason(outcome, "stopped by a signal after %llu events, at t = %.17g",
 			   (unsigned long long)outcome->status.events, outcome->status.time);
-	else if (outcome->status.verdict == TOUCHSTONE_DONE && outcome->status.events < limits.events &&
+	else if (outcome->status.verdict == TOUCHSTONE_DONE && outcome->status.events < plan->limits.events &&
 			 limits.time == INFINITY)
 		reason(outcome, "no event is left after t = %.17g", outcome->status.time);
 	for (size_t w = 0; w < outcome->virtual_wall_count; w++) touchstone_flux(simulation->engine, w, outcome->fluxes[w]);
@@ -110,17 +123,24 @@ static bool write_particles(const struct simulation *simulation, const char *pat
 {
 	struct touchstone_scene scene = simulation->scene;
 	struct touchstone_particle *particles = malloc(scene.particle_count * sizeof *particles);
-	if (!particles) {
+	uint32_t *captured = malloc(scene.particle_count * sizeof *captured);
+	bool stepped = false;
+	for (size_t p = 0; p < scene.potential_count; p++) stepped |= scene.potentials[p].step_count > 0;
+	if (!particles || !captured) {
 		snprintf(error, STORE_ERROR, "%.200s: no memory for %zu particles", path, scene.particle_count);
+		free(particles);
+		free(captured);
 		return false;
 	}
 	for (uint32_t p = 0; p < scene.particle_count; p++) {
 		particles[p].species = scene.particles[p].species;
 		touchstone_state(simulation->engine, p, particles[p].position, particles[p].velocity);
+		captured[p] = (uint32_t)touchstone_captured(simulation->engine, p, NULL, 0);
 	}
 	scene.particles = particles;
-	bool written = extended_xyz_write(path, &scene, error);
+	bool written = extended_xyz_write(path, &scene, stepped ? captured : NULL, error);
 	free(particles);
+	free(captured);
 	return written;
 }
 
@@ -165,15 +185,24 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	size_t walls = simulation->scene.virtual_wall_count;
 	outcome->fluxes = calloc(walls + 1, sizeof *outcome->fluxes);
 	outcome->virtual_wall_count = outcome->fluxes ? walls : 0;
+	struct checkpointing checkpointing = {.plan = plan, .outcome = outcome, .simulation = simulation};
+	bool measuring = false;
+	outcome->failed = plan->resumed && !checkpointing_resume(&checkpointing, &measuring, outcome->error);
+	if (outcome->failed) return;
+	checkpointing_begin(&checkpointing, measuring);
 	uint64_t before = 0;
-	bool ready = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
-	if (ready && plan->against && plan->limits.events > 0)
-		ready = compare(outcome, plan, simulation, progress, &before);
-	if (ready && plan->trace && !trace_begin(&outcome->trace, simulation->engine))
-		snprintf(outcome->error, STORE_ERROR, "out of memory");
-	outcome->failed = *outcome->error;
-	if (ready && !outcome->failed) measure(outcome, plan, simulation, progress, before);
-	if (ready && plan->failure && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
+	if (!measuring) {
+		measuring = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
+		if (measuring && plan->against && plan->limits.events > 0)
+			measuring = compare(outcome, plan, simulation, progress, &before);
+		if (measuring && plan->trace && !trace_begin(&outcome->trace, simulation->engine))
+			snprintf(outcome->error, STORE_ERROR, "out of memory");
+		outcome->failed = *outcome->error && !outcome->checkpoints;
+		if (measuring && !outcome->failed) begin_measuring(outcome, plan, simulation);
+	}
+	checkpointing.measuring = measuring;
+	if (measuring && !outcome->failed) measure(outcome, plan, simulation, progress, before);
+	if (measuring && plan->failure && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
 	if (plan->xyz && !outcome->failed) write_particles(simulation, plan->xyz, outcome->error);
 }
 
@@ -187,10 +216,13 @@ void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t
 		return;
 	}
 	struct simulation simulation;
-	outcome->failed = !simulation_open(&simulation, plan->file, seed, outcome->error);
+	outcome->failed = !simulation_prepare(&simulation, plan->file, seed, outcome->error);
 	if (outcome->failed) return;
 	outcome->particles = simulation.scene.particle_count;
-	find(outcome, plan, &simulation, progress);
+	const struct checkpoint *resumed = plan->resumed;
+	outcome->failed = (resumed && !checkpointing_fits(plan, &simulation, outcome->error)) ||
+					  !simulation_start(&simulation, plan->file, resumed ? &resumed->state : NULL, outcome->error);
+	if (!outcome->failed) find(outcome, plan, &simulation, progress);
 	simulation_close(&simulation);
 }
 

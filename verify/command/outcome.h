@@ -25,7 +25,10 @@
  *	verdict, reason        done, collapsed, halted, diverged, interrupted; why, "" when a limit was reached
  *	complete               false when the run was interrupted
  *	digest                 16 hexadecimal digits
- *	wall_seconds           without start and equilibration, with observers
+ *	wall_seconds           without start and equilibration, with observers and checkpoints; of a resumed run, of all
+ *	                       its parts up to the checkpoints they were resumed from, and this one
+ *	resumed_from           events executed when the run was resumed; null if it was not
+ *	checkpoints            how many were written on the way, and checkpoint_seconds, what that took
  *	events_per_second, collisions_per_second, bytes_per_particle, state_bytes_per_particle (of them for tracked states)
  *	fluxes                 for each virtual wall, what passed it [with its normal, against it]: count, mass, momentum
  *	                       [x, y, z], energy (kinetic)
@@ -65,6 +68,7 @@
 #include "measure/impact.h"
 #include "measure/three_body.h"
 #include "measure/trace.h"
+#include "store/checkpoint.h"
 
 /* What is to be run, once or several times. */
 struct run_plan {
@@ -77,6 +81,10 @@ struct run_plan {
 	bool trace, failure;                   /* told event by event? watched for what goes wrong? */
 	const char *xyz;                       /* file for the final configuration, or NULL */
 	const char *against;                   /* a finer arithmetic to find the horizon with, or NULL */
+	const char *checkpoint;                /* file for checkpoints, or NULL: */
+	uint64_t every;                        /* so many events; 0: at the end only */
+	const char *resume; /* file of the checkpoint that the run goes on from, and what it holds; or NULL */
+	const struct checkpoint *resumed;
 };
 
 /* What became of one run. */
@@ -86,8 +94,13 @@ struct outcome {
 	bool interrupted;
 	size_t particles;
 	double time_begun;   /* simulated time when equilibration ended */
-	double wall_seconds; /* without equilibration */
-	bool conservation;   /* measured, at begin and end: */
+	double wall_seconds; /* without equilibration; of all parts of a run that was resumed */
+	double clock_begun;  /* the steady clock, less those wall seconds, when this part of the run began */
+	bool resumed;
+	uint64_t resumed_from; /* events */
+	uint64_t checkpoints;  /* written by this program, and how long that took: */
+	double checkpoint_seconds;
+	bool conservation; /* measured, at begin and end: */
 	struct conservation conserved[2];
 	bool compared; /* with a finer arithmetic: */
 	struct horizon horizon;

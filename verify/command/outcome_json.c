@@ -137,6 +137,9 @@ static void set_run(json_t *json, const struct run_plan *plan, const struct outc
 	json_object_set_new(json, "complete", json_boolean(!outcome->interrupted));
 	json_object_set_new(json, "digest", hexadecimal(status->digest));
 	json_object_set_new(json, "wall_seconds", number(outcome->wall_seconds));
+	json_object_set_new(json, "resumed_from", outcome->resumed ? whole(outcome->resumed_from) : json_null());
+	json_object_set_new(json, "checkpoints", whole(outcome->checkpoints));
+	json_object_set_new(json, "checkpoint_seconds", number(outcome->checkpoint_seconds));
 	json_object_set_new(json, "events_per_second", number((double)status->events / outcome->wall_seconds));
 	json_object_set_new(json, "collisions_per_second", number((double)status->collisions / outcome->wall_seconds));
 	json_object_set_new(json, "bytes_per_particle", number((double)status->memory / (double)outcome->particles));

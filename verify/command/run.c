@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "command/cases.h"
+#include "command/checkpointing.h"
 #include "command/interrupt.h"
 #include "command/outcome.h"
 #include "command/output.h"
@@ -33,6 +34,9 @@ enum {
 	TRACE,
 	RUNS,
 	THREADS,
+	CHECKPOINT,
+	EVERY,
+	RESUME,
 	CASES
 };
 
@@ -63,16 +67,26 @@ static const struct argp_option options[] = {
 	 "overlap) or goes back in time. One run, of 100000 events at most",
 	 2},
 	{"json", JSON, "FILE", 0, "Write what came of it as JSON; - for standard output, instead of the table", 2},
-	{"xyz", XYZ, "FILE", 0, "Write the particles at the end as extended XYZ", 2},
+	{"xyz", XYZ, "FILE", 0,
+	 "Write the particles at the end as extended XYZ, with how many partners each has captured where there are steps",
+	 2},
 	{"runs", RUNS, "R", 0, "Run R times, with the seeds S, S+1, ... (1)", 3},
 	{"threads", THREADS, "K", 0, "Run K of them at a time (1); the results do not depend on it", 3},
-	{"cases", CASES, "DIR", 0, "Folder in which scenes are found by name", 4},
+	{"checkpoint", CHECKPOINT, "FILE", 0,
+	 "Write the whole state to FILE at the end and on Ctrl-C, so that --resume can go on from it", 4},
+	{"every", EVERY, "N", 0, "and whenever so many more events have been executed", 4},
+	{"resume", RESUME, "FILE", 0,
+	 "Go on from a checkpoint of the same scene as if the run had never stopped: --events, --time and what is measured "
+	 "mean the whole of it",
+	 4},
+	{"cases", CASES, "DIR", 0, "Folder in which scenes are found by name", 5},
 	{0}};
 
 struct wish {
-	const char *scene, *json, *xyz, *folder, *against;
+	const char *scene, *json, *xyz, *folder, *against, *checkpoint, *resume;
 	bool explain, impact, conservation, three_body, trace, failure;
-	uint64_t runs, threads;
+	uint64_t runs, threads, every;
+	char **words;    /* of the command line, the first being the command */
 	char **settings; /* KEY=VALUE, each from malloc */
 	size_t setting_count;
 };
@@ -146,6 +160,15 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case THREADS:
 		wish->threads = option_count("threads", argument, 1, 1024);
+		return 0;
+	case CHECKPOINT:
+		wish->checkpoint = argument;
+		return 0;
+	case EVERY:
+		wish->every = option_count("every", argument, 1, UINT64_MAX);
+		return 0;
+	case RESUME:
+		wish->resume = argument;
 		return 0;
 	case CASES:
 		wish->folder = argument;
@@ -226,7 +249,21 @@ static int tell(const struct run_plan *plan, const struct wish *wish, const stru
 	return status;
 }
 
-static int run_file(const struct wish *wish, const char *path, const struct scene_file *file)
+/* What to type for an interrupted run to go on. */
+static void tell_how_to_resume(const struct wish *wish)
+{
+	fprintf(stderr, "touchstone: to go on: touchstone run");
+	for (char **word = wish->words + 1; *word; word++) {
+		if (strncmp(*word, "--resume", strlen("--resume")) == 0)
+			word += !strchr(*word, '=') && word[1];
+		else
+			fprintf(stderr, strpbrk(*word, " '\"[]{}*?$\\&|;<>()#") ? " '%s'" : " %s", *word);
+	}
+	fprintf(stderr, " --resume %s\n", wish->checkpoint);
+}
+
+static int run_file(const struct wish *wish, const char *path, const struct scene_file *file,
+					const struct checkpoint *resumed)
 {
 	char error[STORE_ERROR];
 	if (!simulation_names(file, error)) return refuse("%s", error);
@@ -248,13 +285,17 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		.limits = limits,
 		.settings = (const char *const *)wish->settings,
 		.setting_count = wish->setting_count,
-		.impact = wish->impact,
-		.conservation = wish->conservation,
-		.three_body = wish->three_body,
+		.impact = wish->impact || (resumed && checkpointing_has_impacts(resumed)),
+		.conservation = wish->conservation || (resumed && checkpointing_has_sums(resumed)),
+		.three_body = wish->three_body || (resumed && checkpointing_has_three_bodies(resumed)),
 		.trace = wish->trace,
 		.failure = wish->failure,
 		.xyz = wish->xyz,
 		.against = wish->against,
+		.checkpoint = wish->checkpoint,
+		.every = wish->every,
+		.resume = wish->resume,
+		.resumed = resumed,
 	};
 	json_t *explained = NULL;
 	FILE *stream = wish->json && strcmp(wish->json, "-") == 0 ? stderr : stdout;
@@ -265,6 +306,7 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 	if (outcomes) {
 		make_runs(&plan, wish, outcomes);
 		status = tell(&plan, wish, outcomes, explained);
+		if (status == STATUS_INTERRUPTED && outcomes->checkpoints) tell_how_to_resume(wish);
 		for (size_t run = 0; run < wish->runs; run++) outcome_free(&outcomes[run]);
 	} else {
 		refuse("no memory for %llu runs", (unsigned long long)wish->runs);
@@ -277,10 +319,19 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 static int run(const struct wish *wish)
 {
 	char error[STORE_ERROR];
+	if ((wish->checkpoint || wish->resume) && wish->runs > 1)
+		return refuse("--runs: %llu, with a checkpoint; accepted: a checkpoint of a single run",
+					  (unsigned long long)wish->runs);
+	if ((wish->checkpoint || wish->resume) && wish->against)
+		return refuse("--against: accepted: without --checkpoint and --resume, since both runs begin together");
+	if (wish->every && !wish->checkpoint) return refuse("--every: accepted: with --checkpoint");
 	if (wish->xyz && (wish->runs > 1 || strcmp(wish->xyz, "-") == 0))
 		return refuse("--xyz: accepted: a file, and a single run");
+	if ((wish->checkpoint || wish->resume) && (wish->trace || wish->failure))
+		return refuse("--%s: accepted: without --checkpoint and --resume", wish->trace ? "trace" : "measure failure");
 	if (wish->trace && wish->runs > 1) return refuse("--trace: accepted: a single run");
-	if ((wish->json && !output_possible(wish->json, error)) || (wish->xyz && !output_possible(wish->xyz, error)))
+	if ((wish->json && !output_possible(wish->json, error)) || (wish->xyz && !output_possible(wish->xyz, error)) ||
+		(wish->checkpoint && !output_possible(wish->checkpoint, error)))
 		return refuse("%s", error);
 	const char *folder = cases_folder(wish->folder);
 	char *path = cases_find(folder, wish->scene);
@@ -289,11 +340,13 @@ static int run(const struct wish *wish)
 					  "cases` has",
 					  wish->scene, folder);
 	int status = STATUS_REFUSED;
+	struct checkpoint resumed = {0};
 	struct scene_file *file = scene_file_open(path, wish->setting_count, (const char *const *)wish->settings, error);
-	if (file)
-		status = run_file(wish, path, file);
+	if (file && (!wish->resume || checkpoint_read(wish->resume, &resumed, error)))
+		status = run_file(wish, path, file, wish->resume ? &resumed : NULL);
 	else
 		refuse("%s", error);
+	checkpoint_free(&resumed);
 	scene_file_close(file);
 	free(path);
 	return status;
@@ -316,10 +369,11 @@ int command_run(int argc, char **argv)
 			   "Exit status: 0 done or collapsed; 1 halted or diverged, or a failure measured; 2 bad input; 130 "
 			   "interrupted, and what was done "
 			   "by then is told all the same.\n\n"
+			   "A run that is stopped and resumed, at any event, ends with the digest of the run that never was.\n\n"
 			   "Example: touchstone run hard-spheres --set density=0.9 --events 1e6 --measure impact --json -\n"
 			   "         touchstone run mixture --against mpfr:256",
 	};
-	struct wish wish = {.runs = 1, .threads = 1, .settings = calloc((size_t)argc, sizeof(char *))};
+	struct wish wish = {.runs = 1, .threads = 1, .words = argv, .settings = calloc((size_t)argc, sizeof(char *))};
 	if (!wish.settings) return refuse("out of memory");
 	argp_parse(&argp, argc, argv, 0, NULL, &wish);
 	int status = run(&wish);

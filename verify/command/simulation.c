@@ -7,11 +7,24 @@
 #include "command/interrupt.h"
 #include "measure/course.h"
 
-/* Makes the engine for the scene as it is. */
-static bool make_engine(struct simulation *simulation, const struct scene_file *file, char error[STORE_ERROR])
+bool simulation_prepare(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
+						char error[STORE_ERROR])
 {
+	struct scene_file seeded = *file; /* for reading only */
+	seeded.seed = seed;
+	*simulation = (struct simulation){0};
+	return scene_file_build(&seeded, &simulation->scene, error);
+}
+
+bool simulation_start(struct simulation *simulation, const struct scene_file *file,
+					  const struct touchstone_snapshot *state, char error[STORE_ERROR])
+{
+	const struct touchstone_scene *scene = &simulation->scene;
 	char reason[160];
-	simulation->engine = touchstone_create(&simulation->scene, file->arithmetic, file->method, reason);
+	if (state)
+		simulation->engine = touchstone_restore(scene, file->arithmetic, file->method, state, reason);
+	else
+		simulation->engine = touchstone_create(scene, file->arithmetic, file->method, reason);
 	if (!simulation->engine) snprintf(error, STORE_ERROR, "%.200s: %s", file->name, reason);
 	return simulation->engine;
 }
@@ -19,11 +32,9 @@ static bool make_engine(struct simulation *simulation, const struct scene_file *
 bool simulation_open(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
 					 char error[STORE_ERROR])
 {
-	struct scene_file seeded = *file; /* for reading only */
-	seeded.seed = seed;
-	if (!scene_file_build(&seeded, &simulation->scene, error)) return false;
-	if (make_engine(simulation, file, error)) return true;
-	scene_free(&simulation->scene);
+	if (!simulation_prepare(simulation, file, seed, error)) return false;
+	if (simulation_start(simulation, file, NULL, error)) return true;
+	simulation_close(simulation);
 	return false;
 }
 
@@ -56,7 +67,7 @@ bool simulation_begin_anew(struct simulation *simulation, const struct scene_fil
 	free((void *)scene->particles);
 	scene->particles = particles;
 	scene->clock = status.time;
-	return make_engine(simulation, file, error);
+	return simulation_start(simulation, file, NULL, error);
 }
 
 void simulation_close(struct simulation *simulation)
@@ -113,11 +124,26 @@ bool simulation_advance(struct simulation *simulation, const struct touchstone_l
 						const struct touchstone_observer *observer, struct simulation_progress *progress,
 						uint64_t besides)
 {
-	struct touchstone_status begun;
-	touchstone_status(simulation->engine, &begun);
-	struct reporter reporter = {progress, limits, (double)besides, begun.time, 0};
-	struct watch watch = {interrupt_flag(), progress ? report : NULL, &reporter};
-	return course_run(simulation->engine, limits, observer, &watch);
+	struct touchstone_status now;
+	touchstone_status(simulation->engine, &now);
+	struct reporter reporter = {progress, limits, (double)besides, now.time, 0};
+	uint64_t until = limits->events < UINT64_MAX - now.events ? now.events + limits->events : UINT64_MAX;
+	struct watch watch = {
+		.stop = interrupt_flag(),
+		.progress = progress ? report : NULL,
+		.context = &reporter,
+	};
+	struct touchstone_limits part = *limits;
+	uint64_t every = simulation->every;
+	for (;;) { /* from pause to pause */
+		uint64_t events = now.events, left = every ? every - events % every : UINT64_MAX;
+		part.events = left < until - events ? left : until - events;
+		bool through = course_run(simulation->engine, &part, observer, &watch);
+		touchstone_status(simulation->engine, &now);
+		bool more = through && now.verdict == TOUCHSTONE_DONE && now.events - events == part.events;
+		if (!more || !every || now.events >= until) return through;
+		simulation->pause(simulation->pause_context);
+	}
 }
 
 bool simulation_horizon(const struct simulation *simulation, const struct scene_file *file, const char *against,

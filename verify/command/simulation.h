@@ -9,12 +9,22 @@
 struct simulation {
 	struct touchstone_scene scene;
 	struct touchstone_engine *engine;
+	uint64_t every;               /* events: whenever so many more have been executed in all, there is a pause, */
+	void (*pause)(void *context); /* in which the engine may be looked at, and not run; 0: never */
+	void *pause_context;
 };
 
 /* Makes the scene of `file` with another seed, and the engine it asks for. False with a message, and nothing to close,
  * when that cannot be. */
 bool simulation_open(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
 					 char error[STORE_ERROR]);
+
+/* The same in two steps: the scene, to be freed by simulation_close, and then the engine, in a state that was saved
+ * or, without one, at the start. */
+bool simulation_prepare(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
+						char error[STORE_ERROR]);
+bool simulation_start(struct simulation *simulation, const struct scene_file *file,
+					  const struct touchstone_snapshot *state, char error[STORE_ERROR]);
 void simulation_close(struct simulation *simulation);
 
 /* Begins once more from the state that the engine is in, a moment later, rounded to doubles, so that an engine in any

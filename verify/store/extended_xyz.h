@@ -32,7 +32,9 @@ bool extended_xyz_read(struct extended_xyz *file, const char *path, int dimensio
 					   const struct extended_xyz_species *known, char error[STORE_ERROR]);
 void extended_xyz_free(struct extended_xyz *file);
 
-/* Writes the particles of a scene, species by number from 1, every number with all its digits. */
-bool extended_xyz_write(const char *path, const struct touchstone_scene *scene, char error[STORE_ERROR]);
+/* Writes the particles of a scene, species by number from 1, every number with all its digits; and, unless it is NULL,
+ * how many partners each has captured, in a column of that name, for viewers to colour by. */
+bool extended_xyz_write(const char *path, const struct touchstone_scene *scene, const uint32_t *captured,
+						char error[STORE_ERROR]);
 
 #endif

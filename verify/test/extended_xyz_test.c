@@ -49,11 +49,12 @@ static void written_and_read_is_the_same(void **state)
 									  .temperature = 1};
 		recipe.dimensions = 1 + (int)random_below(&random, 3);
 		recipe.particle_count = 2 + random_below(&random, 100);
+		static const uint32_t counts[102] = {3, 1};
 		struct touchstone_scene scene, again;
 		struct scene_error problem;
 		char error[STORE_ERROR], settings[2][80];
 		assert_true(scene_build(&recipe, random_bits(&random), &scene, &problem));
-		assert_true(extended_xyz_write(xyz, &scene, error));
+		assert_true(extended_xyz_write(xyz, &scene, trial % 2 ? counts : NULL, error));
 
 		write_file(yaml, "start:\n  positions: file\n  file: start.xyz\n");
 		snprintf(settings[0], sizeof settings[0], "dimensions=%d", recipe.dimensions);
@@ -190,7 +191,7 @@ static void nowhere_to_write(void **state)
 	(void)state;
 	struct touchstone_scene nothing = {.dimensions = 3};
 	char error[STORE_ERROR];
-	assert_false(extended_xyz_write("/no/such/folder/a.xyz", &nothing, error));
+	assert_false(extended_xyz_write("/no/such/folder/a.xyz", &nothing, NULL, error));
 	assert_non_null(strstr(error, "/no/such/folder/a.xyz: cannot be written"));
 }
 
