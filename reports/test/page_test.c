@@ -53,6 +53,35 @@ static int for_each(const char *ending, void (*look)(const char *name))
 	return count;
 }
 
+/* Links to the live page stand where the page lies beside the report, and only there; parameters are parameters. */
+static void live_page_is_linked_where_it_is(void **state)
+{
+	(void)state;
+	char *folder = folder_new(), *stored, *pages;
+	assert_true(asprintf(&stored, "%s/results", folder) > 0 && asprintf(&pages, "%s/report", folder) > 0);
+	assert_true(aside_folder(stored, error));
+	struct result *result = result_new("shown", "Something to see");
+	result_live(result, "See & believe", "scene=gas&against=binary32");
+	put(result, stored);
+	for (int there = 0; there < 2; there++) {
+		if (there) folder_put(folder, "live.html", "<p>");
+		if (!report_write(stored, pages, error)) fail_msg("%s", error);
+		char *text = folder_text(pages, "shown.html");
+		bool linked = strstr(text, "href=\"../live.html?scene=gas&amp;against=binary32\">See &amp; believe</a>");
+		assert_int_equal(linked, there);
+		assert_int_equal(strstr(text, "See it happen") != NULL, there);
+		free(text);
+	}
+	result = result_new("shown", "Something to see");
+	result_live(result, "Not parameters", "scene=gas\" onclick=\"");
+	assert_false(result_write(result, stored, error));
+	assert_non_null(strstr(error, "no parameters of the live page"));
+	result_free(result);
+	free(stored);
+	free(pages);
+	folder_remove(folder);
+}
+
 static void check_markup(const char *name)
 {
 	char *command;
@@ -304,6 +333,7 @@ int main(int argc, char **argv)
 {
 	report = argc > 1 ? strdup(argv[1]) : NULL;
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(live_page_is_linked_where_it_is),
 		cmocka_unit_test(markup_is_well_formed),
 		cmocka_unit_test(links_lead_somewhere),
 		cmocka_unit_test(text_stays_text),
