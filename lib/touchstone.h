@@ -234,8 +234,8 @@ void touchstone_elastic(struct touchstone_engine *engine, bool elastic);
  * exponents change: no number is rounded, unless one leaves the range of the arithmetic. So a gas that cools can be
  * kept as warm as it began. In the absolute form all that follows is the same, event by event. In the relative form
  * pages keep their length, to which a cooled gas had grown slow, so that times are rounded again as they were at the
- * start. False, changing nothing, where something else has a scale of its own (gravity, steps, viscoelastic
- * restitution), and for more than 64 either way. Not to be called by an observer. */
+ * start. False, changing nothing, where something has a scale of its own (gravity, steps, viscoelastic restitution),
+ * for methods that go back, in the relative form, and for more than 64 either way. Not to be called by an observer. */
 bool touchstone_rescale(struct touchstone_engine *engine, int exponent);
 
 /* Position and velocity of one particle at the time of the last event, rounded to double; positions within the box

@@ -2,6 +2,12 @@
  * number is rounded. Pages stay as long as they are, so that a gas that has cooled has again as few of them between two
  * collisions as it had, and a time within one is again as fine. */
 
+/* Methods that go back compare the moments of last events, which pages that begin within a page would confuse. */
+static bool compares_moments(const struct touchstone_engine *engine)
+{
+	return engine->method->policy & (POLICY_BACKWARDS | POLICY_SEARCH) && engine->page_turn > 0;
+}
+
 /* Whether nothing but what speeds are counted in tells one temperature from another. */
 static bool scales(const struct touchstone_engine *engine)
 {
@@ -20,7 +26,7 @@ static struct moment moment_scaled(struct moment moment, num factor, double page
 static bool engine_rescale(struct touchstone_engine *engine, int exponent)
 {
 	static const int most = 64; /* in one step */
-	if (!scales(engine) || exponent < -most || exponent > most) return false;
+	if (!scales(engine) || compares_moments(engine) || exponent < -most || exponent > most) return false;
 	double slower = ldexp(1, -exponent);
 	num speed = from_double(ldexp(1, exponent)), time = from_double(slower);
 	for (uint32_t i = 0; i < engine->count; i++) {
@@ -32,6 +38,8 @@ static bool engine_rescale(struct touchstone_engine *engine, int exponent)
 		if (engine->crossed) engine->crossed[i] = moment_scaled(engine->crossed[i], time, slower);
 	}
 	engine->now = moment_scaled(engine->now, time, slower);
+	engine->latest = moment_scaled(engine->latest, time, slower);
+	engine->contact_time = mul(engine->contact_time, time);
 	engine->uneven |= exponent > 0 && engine->page_turn > 0;
 	engine->slack = slack_needed(engine, moment_double(engine->now), typical_speed(engine));
 	if (!lay_out(engine)) out_of_memory(engine);

@@ -16,6 +16,8 @@
 
 enum { SEED = 20140902, MOST = 4000 };
 
+static const char *method = "stable";
+
 static bool brief; /* under sanitizers, where everything takes ten times longer */
 
 /* The events of a run. */
@@ -63,7 +65,7 @@ static struct touchstone_engine *gas(const char *arithmetic, enum touchstone_for
 	struct scene_error complaint;
 	char error[160];
 	if (!scene_build(&recipe, SEED, &scene, &complaint)) fail_msg("%s %s", complaint.key, complaint.text);
-	struct touchstone_engine *engine = touchstone_create(&scene, arithmetic, "stable", error);
+	struct touchstone_engine *engine = touchstone_create(&scene, arithmetic, method, error);
 	if (!engine) fail_msg("%s", error);
 	scene_free(&scene);
 	return engine;
@@ -108,6 +110,22 @@ static void absolute_gas_takes_the_same_course(void **state)
 	static const char *const arithmetics[] = {"binary64", "binary32", "short:14", "twin", "mpfr:77", "extended"};
 	for (size_t a = 0; a < sizeof arithmetics / sizeof *arithmetics; a++)
 		assert_same_course(arithmetics[a], TOUCHSTONE_ABSOLUTE, a % 2, true, 0);
+}
+
+/* The times that other methods keep are changed with the rest; those that go back cannot do so with pages. */
+static void other_methods_take_the_same_course(void **state)
+{
+	(void)state;
+	static const char *const methods[] = {"tc", "search", "shrink"};
+	for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+		method = methods[m];
+		assert_same_course("binary64", TOUCHSTONE_ABSOLUTE, false, true, 0);
+	}
+	method = "search";
+	struct touchstone_engine *engine = gas("binary64", TOUCHSTONE_RELATIVE, 0.8, false);
+	assert_false(touchstone_rescale(engine, 1));
+	touchstone_destroy(engine);
+	method = "stable";
 }
 
 /* Where pages keep their length, times are rounded elsewhere; with bits enough nothing comes of that. */
@@ -210,6 +228,7 @@ int main(void)
 	brief = getenv("TOUCHSTONE_BRIEF");
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(absolute_gas_takes_the_same_course),
+		cmocka_unit_test(other_methods_take_the_same_course),
 		cmocka_unit_test(relative_gas_takes_the_same_course),
 		cmocka_unit_test(change_is_exact),
 		cmocka_unit_test(cold_gas_goes_on),
