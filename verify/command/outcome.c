@@ -189,6 +189,7 @@ void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t
 	struct simulation simulation;
 	outcome->failed = !simulation_open(&simulation, plan->file, seed, outcome->error);
 	if (outcome->failed) return;
+	outcome->particles = simulation.scene.particle_count;
 	find(outcome, plan, &simulation, progress);
 	simulation_close(&simulation);
 }
