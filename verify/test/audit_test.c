@@ -123,6 +123,29 @@ static void regressions_are_told_until_accepted(void **state)
 	program_refused(audit("--accept bull"), "--accept: 'bull'; accepted: all, or the name of a check");
 }
 
+/* Two audits begin a history together, and both are in it, whole. */
+static void two_at_once_are_both_kept(void **state)
+{
+	(void)state;
+	char text[2][300], *words[PROGRAM_WORDS];
+	pid_t audits[2];
+	for (int a = 0; a < 2; a++) {
+		snprintf(text[a], sizeof text[a],
+				 "audit --suite %s/suite.yaml --seed %d --history %s/history.db --json %s/%d.json", folder, a + 1,
+				 folder, folder, a);
+		program_words(text[a], words);
+		if ((audits[a] = fork()) != 0) continue;
+		if (!freopen("/dev/null", "w", stdout)) _exit(99);
+		execv(words[0], words);
+		_exit(99);
+	}
+	for (int a = 0; a < 2; a++) assert_int_equal(program_status(audits[a]), 0);
+	json_t *json = audit_read("--seed 3", 0);
+	assert_true(json_number(json, "audit") == 3);
+	assert_true(json_number(measure_of(json, "gas", "below_contact"), "references") == 2);
+	json_decref(json);
+}
+
 /* A threshold that is not kept is a finding without any history. */
 static void thresholds_need_no_history(void **state)
 {
@@ -290,6 +313,7 @@ int main(void)
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
 	const struct CMUnitTest tests[] = {
 		IN_FOLDER(regressions_are_told_until_accepted),
+		IN_FOLDER(two_at_once_are_both_kept),
 		IN_FOLDER(thresholds_need_no_history),
 		IN_FOLDER(junit_is_written),
 		IN_FOLDER(budgets_are_kept),
