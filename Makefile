@@ -19,7 +19,7 @@ WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
 CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp -Wno-psabi $(EXTRA)
 CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
-LDLIBS   := -lhdf5_serial -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
+LDLIBS   := -lhdf5_serial -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lsqlite3 -l:libmpfr.a -l:libgmp.a -lm
 
 sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*' \
 	-not -path '*/target/*')
@@ -123,7 +123,7 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart bench/main \
+$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart command/audit bench/main \
 	campaign/piece_store): CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
@@ -135,7 +135,7 @@ $(BUILD)/object/verify/command/cases.o: CPPFLAGS += $(cases_folder)
 $(BUILD)/object/verify/store/checkpoint_tree.o: CPPFLAGS += -isystem /usr/include/hdf5/serial
 
 # Templates and plot scripts are part of the program.
-$(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
+$(BUILD)/object/reports/page.o $(BUILD)/object/reports/junit.o: $(wildcard reports/templates/*)
 $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
 
 # One set of objects for the program, the archive and the shared library, which shows what touchstone.h declares.

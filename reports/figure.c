@@ -21,6 +21,7 @@ EMBED(plot_curves, "plots/curves.gp");
 EMBED(plot_bars, "plots/bars.gp");
 EMBED(plot_discs, "plots/discs.gp");
 EMBED(plot_frontier, "plots/frontier.gp");
+EMBED(plot_trend, "plots/trend.gp");
 EMBED(plot_map, "plots/map.gp");
 
 static const struct kind {
@@ -34,6 +35,7 @@ static const struct kind {
 	{"bars", plot_bars, {"category", "value", "low", "high"}},
 	{"discs", plot_discs, {"x", "radius", "speed", "touched"}},
 	{"frontier", plot_frontier, {"x", "y", "low", "high", "best"}},
+	{"trend", plot_trend, {"time", "y", "low", "high"}},
 	{"map", plot_map, {"x", "y", "value"}},
 };
 

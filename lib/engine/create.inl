@@ -245,7 +245,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
 	bool made = set_species_and_walls(engine, scene) && set_potentials(engine, scene) &&
 				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
-	if (made) set_policy(engine, scene);
+	if (made) read_policy(engine, scene);
 	*error = '\0';
 	made = made && (snapshot ? take_in(engine, snapshot, error) : begin(engine));
 	if (!made) {

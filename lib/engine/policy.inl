@@ -125,7 +125,7 @@ static bool lately(const struct touchstone_engine *engine, uint32_t i)
 /* ------------------------------------------------------------------ from the scene, and to people */
 
 /* What the scene says, or what the methods' files say where it does not. */
-static void set_policy(struct touchstone_engine *engine, const struct touchstone_scene *scene)
+static void read_policy(struct touchstone_engine *engine, const struct touchstone_scene *scene)
 {
 	double roundoff = ldexp(1, -engine->bits), pull = 0, speed = typical_speed(engine);
 	for (int axis = 0; axis < engine->dimensions; axis++) pull = fmax(pull, fabs(scene->acceleration[axis]));

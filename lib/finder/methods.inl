@@ -46,14 +46,14 @@ enum {
 
 static const struct method methods[METHODS] = {
 	[STABLE] = {"stable", SIEVE_ORDER, stable_ball_ball, stable_ball_leave, stable_ball_plane, stable_half_space,
-				stable_claim},
-	[NAIVE] = {"naive", SIEVE_MISSES, naive_ball_ball, naive_ball_leave, naive_ball_plane, naive_half_space, NULL},
+				stable_claim, 0},
+	[NAIVE] = {"naive", SIEVE_MISSES, naive_ball_ball, naive_ball_leave, naive_ball_plane, naive_half_space, NULL, 0},
 	[GUARDED] = {"guarded", SIEVE_MISSES, guarded_ball_ball, guarded_ball_leave, guarded_ball_plane, guarded_half_space,
-				 guarded_claim},
+				 guarded_claim, 0},
 	[COMPENSATED] = {"compensated", SIEVE_ORDER, compensated_ball_ball, compensated_ball_leave, compensated_ball_plane,
-					 stable_half_space, compensated_claim},
+					 stable_half_space, compensated_claim, 0},
 	[ROUNDED] = {"rounded", SIEVE_ORDER, rounded_ball_ball, rounded_ball_leave, rounded_ball_plane, rounded_half_space,
-				 rounded_claim},
+				 rounded_claim, 0},
 	[REWIND] = {.name = "rewind",
 				.ball_ball = naive_ball_ball,
 				.ball_plane = naive_ball_plane,
@@ -82,11 +82,16 @@ static const struct method methods[METHODS] = {
 
 static const struct method *find_method(const char *name, char error[160])
 {
-	char known[128] = "";
-	for (int m = 0; m < METHODS; m++) {
+	for (int m = 0; m < METHODS; m++)
 		if (strcmp(methods[m].name, name) == 0) return &methods[m];
-		snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", m ? ", " : "", methods[m].name);
+	snprintf(error, 160, "no method '%.20s'; known are", name);
+	for (int m = 0; m < METHODS; m++) {
+		size_t used = strlen(error), room = 160 - used;
+		if (strlen(methods[m].name) + sizeof " and more" + 1 > room) {
+			snprintf(error + used, room, " and more");
+			break;
+		}
+		snprintf(error + used, room, "%s %s", m ? "," : "", methods[m].name);
 	}
-	snprintf(error, 160, "no method '%.20s'; known are %.110s", name, known);
 	return NULL;
 }

@@ -22,6 +22,7 @@ int command_grade(int argc, char **argv);
 int command_chart(int argc, char **argv);
 int command_fuzz(int argc, char **argv);
 int command_replay(int argc, char **argv);
+int command_audit(int argc, char **argv);
 int command_campaign(int argc, char **argv);
 int command_merge(int argc, char **argv);
 int command_report(int argc, char **argv);

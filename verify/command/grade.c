@@ -107,13 +107,6 @@ static bool wants(const struct wish *wish, const struct family *family)
 	return wanted;
 }
 
-/* The name under which a file's questions are reported: without folder and ending. */
-static char *file_title(const char *path)
-{
-	const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *ending = strrchr(base, '.');
-	return strndup(base, ending && ending > base ? (size_t)(ending - base) : strlen(base));
-}
-
 /* Families first, then the file. */
 static size_t collect(struct question_source *sources, const struct wish *wish, const struct query_file *file,
 					  const char *title)
@@ -194,7 +187,7 @@ static int ask(const struct wish *wish, const struct party *party, const struct 
 {
 	size_t families = 0;
 	while (family_at(families)) families++;
-	char *title = wish->inputs ? file_title(wish->inputs) : NULL;
+	char *title = wish->inputs ? text_stem(wish->inputs) : NULL;
 	struct question_source *sources = calloc(families + 1, sizeof *sources);
 	struct grading_plan plan = {
 		.finders = party->finders,

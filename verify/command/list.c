@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "audit/suite.h"
 #include "campaign/campaign_file.h"
 #include "command/cases.h"
 #include "family/family.h"
@@ -163,6 +164,21 @@ static bool list_campaign(const char *folder, const char *base)
 	return file;
 }
 
+/* And for a suite. */
+static bool list_suite(const char *folder, const char *base)
+{
+	char *path, error[STORE_ERROR];
+	if (asprintf(&path, "%s/suites/%s", folder, base) < 0) return false;
+	struct suite *suite = suite_open(path, folder, error);
+	free(path);
+	if (suite)
+		print(suite->name, suite->title);
+	else
+		refuse("%s", error);
+	suite_close(suite);
+	return suite;
+}
+
 /* Lists what a folder of the cases holds. */
 static bool list_entries(const char *folder, const char *within, bool (*list)(const char *folder, const char *base))
 {
@@ -187,12 +203,18 @@ static bool list_cases(const char *folder)
 	if (asprintf(&stress, "%s/stress", folder) < 0) return false;
 	bool stressed = access(stress, R_OK) == 0;
 	free(stress);
-	return list_entries(folder, "", list_case) & (!stressed || list_entries(folder, "/stress", list_stress));
+	bool good = list_entries(folder, "", list_case);
+	return (!stressed || list_entries(folder, "/stress", list_stress)) && good;
 }
 
 static bool list_campaigns(const char *folder)
 {
 	return list_entries(folder, "/campaigns", list_campaign);
+}
+
+static bool list_suites(const char *folder)
+{
+	return list_entries(folder, "/suites", list_suite);
 }
 
 static const struct kind {
@@ -201,6 +223,7 @@ static const struct kind {
 } kinds[] = {
 	{"cases", list_cases},       {"methods", list_methods}, {"arithmetics", list_arithmetics},
 	{"families", list_families}, {"figures", list_figures}, {"campaigns", list_campaigns},
+	{"suites", list_suites},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -218,13 +241,14 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case ARGP_KEY_ARG:
 		if (wish->kind)
-			refuse_usage(
-				"list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, campaigns");
+			refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, "
+						 "campaigns, suites");
 		for (int k = 0; k < KINDS; k++)
 			if (strcmp(kinds[k].name, argument) == 0) wish->kind = &kinds[k];
 		if (!wish->kind)
-			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns",
-						 argument);
+			refuse_usage(
+				"list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns, suites",
+				argument);
 		return 0;
 	default:
 		return ARGP_ERR_UNKNOWN;
@@ -238,9 +262,10 @@ int command_list(int argc, char **argv)
 	static const struct argp argp = {
 		.options = options,
 		.parser = parse,
-		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns]",
+		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns|suites]",
 		.doc = "Lists what there is, with one line each: scenes that `run` knows by name, methods and arithmetics, "
-			   "families of questions to finders, figures that `reproduce` makes, campaigns.\vExample: touchstone list "
+			   "families of questions to finders, figures that `reproduce` makes, campaigns, suites of "
+			   "`audit`.\vExample: touchstone list "
 			   "methods",
 	};
 	struct wish wish = {0};

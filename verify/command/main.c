@@ -21,6 +21,7 @@ static const struct command {
 	{"chart", "speed against accuracy, measured here and now", command_chart},
 	{"fuzz", "random search for the smallest input that breaks a finder", command_fuzz},
 	{"replay", "one input through every method and arithmetic, beside the exact answer", command_replay},
+	{"audit", "a suite against its thresholds and its history, to be woken by", command_audit},
 	{"campaign", "runs over a grid of parameters and seeds, each made once", command_campaign},
 	{"merge", "the stores of a campaign's shards put together", command_merge},
 	{"report", "pages from stored results", command_report},

@@ -3,9 +3,11 @@
 
 #include <argp.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <omp.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "campaign/campaign.h"
 #include "command/interrupt.h"
@@ -87,16 +89,33 @@ static void show(void *context, double part)
 	progress_show(context, 100 * part, 100);
 }
 
+/* What is finished of a figure waits apart from that of other sizes and seeds, until the figure is whole. */
+static bool unfinished(const struct arguments *arguments, char path[PATH_MAX])
+{
+	return snprintf(path, PATH_MAX, "%s/unfinished/%s-%" PRIu64, arguments->results, arguments->full ? "full" : "quick",
+					arguments->seed) < PATH_MAX;
+}
+
+/* Clears it away; folders that hold something else stay. */
+static void forget(int f, char *path)
+{
+	campaign_forget(figures[f].name, path);
+	if (rmdir(path) != 0) return;
+	*strrchr(path, '/') = '\0';
+	rmdir(path);
+}
+
 /* Measures one figure and stores it. */
 static int make(int f, const struct arguments *arguments)
 {
-	char error[REPORT_ERROR], command[120];
+	char error[REPORT_ERROR], command[120], pieces[PATH_MAX];
+	if (!unfinished(arguments, pieces)) return refuse("--results: a path too long");
 	struct progress progress = progress_begin(figures[f].name, "%");
 	struct figure_setup setup = {
 		.full = arguments->full,
 		.seed = arguments->seed,
 		.threads = arguments->threads,
-		.folder = arguments->results,
+		.folder = pieces,
 		.stop = interrupt_flag(),
 		.progress = show,
 		.context = &progress,
@@ -113,7 +132,7 @@ static int make(int f, const struct arguments *arguments)
 	if (written && figures[f].make == figure_atlas) table_print(result, 0); /* it is one table */
 	result_free(result);
 	if (!written) return refuse("%s", error);
-	if (!interrupted()) campaign_forget(figures[f].name, arguments->results);
+	if (!interrupted()) forget(f, pieces);
 	fprintf(stderr, "%s: %s in %.1f s, stored as %s/%s.json\n", figures[f].name,
 			interrupted() ? "interrupted" : "measured", seconds, arguments->results, figures[f].name);
 	return STATUS_WELL;
@@ -129,7 +148,7 @@ int command_reproduce(int argc, char **argv)
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
 			   "Figures: all, or those that `touchstone list figures` has.\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
-			   "incomplete.\n\n"
+			   "incomplete; the same call then goes on from there.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",
 	};
 	argp_parse(&argp, argc, argv, 0, NULL, &arguments);

@@ -141,7 +141,7 @@ static void write_bits(const struct cell *cell, char text[40])
 	if (cell->rung == RUNGS)
 		snprintf(text, 40, "never");
 	else
-		snprintf(text, 40, "%s%d bits", cell->rung ? "" : "≤ ", ladder[cell->rung]);
+		snprintf(text, 40, "%s%d bits", cell->rung ? "" : "<= ", ladder[cell->rung]);
 }
 
 static void add_glance(struct result *result, const struct atlas *atlas)
@@ -241,7 +241,7 @@ static struct result *tell(const struct atlas *atlas)
 	add_cells(result, atlas);
 	result_note(result,
 				"Deep is nearer than %g of the contact distance; energy may change by %g of its scale. An overlap "
-				"that lasts ten checks is an entangled pair, one that clears is a pair that passes through.",
+				"that lasts ten checks is an entangled pair, one that clears is a pair that penetrates.",
 				failure_depth, failure_energy);
 	result_note(
 		result,

@@ -274,8 +274,7 @@ bool failure_find(const struct touchstone_scene *scene, double collisions, const
 
 const char *failure_word(enum failure_kind kind)
 {
-	static const char *const words[] = {"survives",     "comes to rest",  "no event left", "drifts",
-										"gains energy", "passes through", "entangles",     "runs backwards",
-										"loops",        "halts",          "not finite"};
+	static const char *const words[] = {"survives",  "rests",     "no events", "drifts", "gains energy", "penetrates",
+										"entangles", "runs back", "loops",     "halts",  "not finite"};
 	return words[kind];
 }

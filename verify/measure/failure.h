@@ -5,11 +5,11 @@
  *	halts            the method has no answer to go on with (the engine's verdict)
  *	not finite       a coordinate or a speed is no longer a number
  *	loops            events go on but time does not (the engine's verdict), in a scene that loses no energy
- *	runs backwards   the clock is earlier than at the check before
+ *	runs back        the clock is earlier than at the check before
  *	gains energy     of the energy at the start (its scale: conservation.h), more than 1 % has come in
  *	drifts           or, in a scene that loses none, has gone
  *	entangles        two particles are nearer than 9/10 of their contact distance, and overlap at the next ten checks
- *too passes through   or have parted by then; or a particle is so deep in a wall
+ *too penetrates       or have parted by then; or a particle is so deep in a wall
  *
  * Where the scene itself loses energy, to come to rest is right, and so is a verdict of collapse. Once something is
  * wrong, the run is repeated from the last check that found nothing, event by event, for the first event that shows it.
@@ -50,7 +50,7 @@ bool failure_find(const struct touchstone_scene *scene, double collisions, const
 				  const struct touchstone_limits *limits, const struct watch *watch, struct failure *failure,
 				  char error[160]);
 
-/* "survives", "comes to rest", "drifts", ... */
+/* "survives", "rests", "drifts", ... */
 const char *failure_word(enum failure_kind kind);
 
 static inline bool failure_survived(const struct failure *failure)
