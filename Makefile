@@ -7,6 +7,7 @@
 #                          finder against the exact oracle, QUESTIONS=1e7 for fewer
 #   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++
 #   make CC=clang          another compiler               make BUILD=build/other   another place
+#   make live              the convection scene in a browser: build/live.html, one file; make live-test drives it in Chromium
 #   make clean, make format
 
 VERSION  := 0.1
@@ -22,7 +23,7 @@ CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 LDLIBS   := -lhdf5_serial -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lsqlite3 -l:libmpfr.a -l:libgmp.a -lm
 
 sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*' \
-	-not -path '*/target/*')
+	-not -path '*/target/*' -not -path '*/live/live.c' -not -path '*/live/recipes.c')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 BENCH    := verify/bench/main.c
@@ -54,7 +55,7 @@ report:
 test:
 	@.ci/setup
 	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone $(TESTS)
-	@$(MAKE) --no-print-directory check digests sanitize
+	@$(MAKE) --no-print-directory check digests live-test sanitize
 
 # Every test program, from this folder, as many at a time as there are cores; each tells its tale when it has ended.
 check: $(BUILD)/touchstone $(TESTS)
@@ -188,6 +189,7 @@ $(BUILD)/target/%: verify/fuzz/target/%.c $(BUILD)/parts.a $(BUILD)/libtouchston
 		$(LDLIBS)
 
 include .ci/install.mk
+include .ci/live.mk
 
 format:
 	clang-format -i $$(git ls-files '*.c' '*.h' '*.inl')

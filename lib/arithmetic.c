@@ -6,8 +6,12 @@
 
 #include "unit/unit.h"
 
+#ifdef TOUCHSTONE_WITHOUT_MPFR /* nor with numbers of the compiler's own */
+static const struct unit *const units[] = {&unit_short, &unit_binary32, &unit_binary64, &unit_twin};
+#else
 static const struct unit *const units[] = {&unit_short,     &unit_binary32, &unit_binary64, &unit_extended, &unit_twin,
 										   &unit_binary128, &unit_mpfr2,    &unit_mpfr4,    &unit_mpfr16};
+#endif
 enum { UNITS = sizeof units / sizeof *units };
 
 /* Finds the unit for "name" or "name:bits" and sets the thread's working precision to it. */
@@ -113,6 +117,11 @@ bool touchstone_rescale(struct touchstone_engine *engine, int exponent)
 void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3], double velocity[3])
 {
 	unit_of(engine)->state(engine, particle, position, velocity);
+}
+
+double touchstone_temperature(const struct touchstone_engine *engine, uint32_t particle)
+{
+	return unit_of(engine)->temperature(engine, particle);
 }
 
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],

@@ -78,6 +78,16 @@ struct touchstone_virtual_wall {
 	double normal[3]; /* of length 1 */
 };
 
+/* Particles that carry heat, as those of a public simulator of convection do ("event-driven simulator of many colliding
+ * particles"). Two that collide both take the mean T' of their temperatures, and each is given a velocity of
+ * -kick (T' - neutral) along the last axis, its own impulse apart; one that meets a wall takes the mean of its
+ * temperature and the wall's. Kicks bring energy in: see touchstone_status. */
+struct touchstone_convection {
+	const double *temperatures; /* of the particles at the start; NULL: they carry none, and nothing else is read */
+	const double *wall_temperatures; /* of the walls; NaN: it passes no heat on */
+	double kick, neutral;
+};
+
 enum touchstone_form {
 	TOUCHSTONE_RELATIVE, /* time since the page was turned, position within a place: errors do not grow */
 	TOUCHSTONE_ABSOLUTE, /* one time since the start, one position within the box, as in the papers */
@@ -107,6 +117,9 @@ struct touchstone_scene {
 	const struct touchstone_potential *potentials;
 	size_t virtual_wall_count;
 	const struct touchstone_virtual_wall *virtual_walls;
+	struct touchstone_convection convection;
+	double thermostat; /* kT of thermal walls: who meets one leaves it with a velocity drawn at that temperature
+						  (Lebowitz and Spohn 1978); 0: walls send particles back by their restitution */
 	enum touchstone_form form;
 	enum touchstone_search search;
 	double cell; /* side of a search cell; 0: chosen. Never changes a result */
@@ -180,6 +193,8 @@ struct touchstone_status {
 	uint64_t crossings;                   /* of virtual walls: no physical events, and not in the digest */
 	uint64_t captured;                    /* pairs that are within a step now */
 	double potential_energy;              /* of all of them */
+	double kicked_energy;                 /* what the kicks of convection brought in so far */
+	double thermostat_energy;             /* what thermal walls brought in */
 	uint64_t lookups;                     /* bookkeeping: cells crossed and searches repeated */
 	double time;                          /* of the last event (or the limit that was reached) */
 	uint64_t digest;                      /* of kind, particles and exact time of every physical event so far */
@@ -227,6 +242,9 @@ bool touchstone_rescale(struct touchstone_engine *engine, int exponent);
  * along periodic axes. */
 void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3],
 					  double velocity[3]);
+
+/* The temperature a particle carries, rounded to double; NaN in a scene without convection. */
+double touchstone_temperature(const struct touchstone_engine *engine, uint32_t particle);
 
 /* During an observer's call: the exact relative position, first minus second particle, of the pair whose event it is.
  * terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact receives the

@@ -11,6 +11,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 EMBED(template_head, "templates/head.html");
 EMBED(template_index, "templates/index.html");
@@ -149,6 +150,24 @@ static json_t *pages_of(const struct shelf *shelf)
 	return pages;
 }
 
+/* Links to the live page, where it lies beside the report: what each result says of it, as addresses. */
+static void link_live(const struct shelf *shelf, const json_t *views, const char *folder)
+{
+	char *path = NULL;
+	bool there = asprintf(&path, "%s/../live.html", folder) >= 0 && access(path, R_OK) == 0;
+	for (size_t i = 0; there && i < shelf->count; i++) {
+		json_t *links = json_array();
+		const json_t *live;
+		size_t k;
+		json_array_foreach(json_object_get(result_document(shelf->results[i]), "live"), k, live) json_array_append_new(
+			links, json_pack("{s: o, s: s}", "address", json_sprintf("../live.html?%s", text_at(live, "query")),
+							 "title", text_at(live, "title")));
+		json_object_set_new(json_array_get(views, i), "has_live", json_boolean(json_array_size(links) > 0));
+		json_object_set_new(json_array_get(views, i), "live", links);
+	}
+	free(path);
+}
+
 /* The way from page to page. */
 static void link_views(const json_t *views)
 {
@@ -179,6 +198,7 @@ bool report_write(const char *results_folder, const char *report_folder, char er
 			   result_write(shelf.results[i], report_folder, error);
 	}
 	link_views(views);
+	link_live(&shelf, views, report_folder);
 	for (size_t i = 0; good && i < json_array_size(views); i++) {
 		const json_t *view = json_array_get(views, i);
 		good = write_page(report_folder, text_at(view, "page"), "result", view, error);

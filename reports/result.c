@@ -91,7 +91,7 @@ struct result *result_new(const char *name, const char *title)
 	set(result, result->document, "date", today());
 	set(result, result->document, "complete", json_true());
 	set(result, result->document, "machine", provenance());
-	const char *const lists[] = {"summary", "claims", "tables", "figures", "notes"};
+	const char *const lists[] = {"summary", "claims", "tables", "figures", "notes", "live"};
 	for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) set(result, result->document, lists[i], json_array());
 	return result;
 }
@@ -117,6 +117,11 @@ void result_note(struct result *result, const char *format, ...)
 	va_start(arguments, format);
 	append(result, list(result, "notes"), formatted(format, arguments));
 	va_end(arguments);
+}
+
+void result_live(struct result *result, const char *title, const char *query)
+{
+	append(result, list(result, "live"), json_pack("{s: s, s: s}", "title", title, "query", query));
 }
 
 void result_made_by(struct result *result, const char *command, double seconds, const char *revision)

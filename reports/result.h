@@ -40,6 +40,10 @@ __attribute__((format(printf, 2, 3))) void result_paragraph(struct result *resul
 /* Something to know when reading the numbers: a choice made, a doubt, an explanation that was tried. */
 __attribute__((format(printf, 2, 3))) void result_note(struct result *result, const char *format, ...);
 
+/* What the live page (build/live.html, beside the report) shows of it: a title for the link, and the page's parameters,
+ * such as "scene=three-body&against=naive". */
+void result_live(struct result *result, const char *title, const char *query);
+
 /* The exact command that makes this result again, how many seconds of wall time it took, and the revision of the
  * source (NULL when it is not known). */
 void result_made_by(struct result *result, const char *command, double seconds, const char *revision);

@@ -203,6 +203,17 @@ static bool check_distinct(struct place place, const json_t *figures)
 	return true;
 }
 
+/* Parameters of the live page: they become part of an address. */
+static bool check_live(const struct place *place, json_t *live)
+{
+	const char *title, *query;
+	json_error_t fault;
+	if (json_unpack_ex(live, &fault, 0, "{s: s, s: s}", "title", &title, "query", &query) != 0)
+		return wrong(place, "%s", fault.text);
+	static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789=&@:.-";
+	return query[strspn(query, allowed)] == 0 || wrong(place, "'%s' are no parameters of the live page", query);
+}
+
 bool schema_check(const json_t *document, const char *name, char error[REPORT_ERROR])
 {
 	struct place place = {.document = name, .error = error};
@@ -226,6 +237,7 @@ bool schema_check(const json_t *document, const char *name, char error[REPORT_ER
 	if (any && !is_number(any)) return wrong(&place, "seconds is not a number");
 	return check_texts(&place, "summary", json_object_get(root, "summary")) &&
 		   check_texts(&place, "notes", json_object_get(root, "notes")) &&
+		   (!json_object_get(root, "live") || check_each(root, place, "live", check_live)) &&
 		   check_each(root, place, "claims", check_claim) && check_each(root, place, "tables", check_table) &&
 		   check_each(root, place, "figures", check_figure) && check_distinct(place, json_object_get(root, "figures"));
 }

@@ -18,6 +18,7 @@
  *	             panel: {row, column, note}, fit: {slope, intercept}, marks: [{name, title, link, shown}, ...]}]}];
  *	             panel, fit and marks may be missing, and a mark's link; there are as many marks as rows
  *	notes        [paragraph, ...]
+ *	live         [{title, query}], what the live page shows of it; may be missing
  *
  * Numbers are decimal with 17 digits, which gives every double back; null stands for NaN, and the texts "inf" and
  * "-inf" for infinities. Further keys are allowed and ignored; a change of meaning gets a new schema name. */

@@ -43,16 +43,21 @@ static int expand(num x, double *terms, int most)
 	return count;
 }
 
-/* Enters an event into the digest: its rank says kind and particles, its moment when. */
-static void record(struct touchstone_engine *engine, uint64_t rank)
+/* Mixes in the moment that is now. */
+static uint64_t mix_now(const struct touchstone_engine *engine, uint64_t digest)
 {
 	double terms[TOUCHSTONE_MOST_TERMS];
-	static const uint64_t images = 63; /* of no meaning outside: when a particle changes its image is bookkeeping */
-	uint64_t digest = mix(engine->digest, rank & ~images);
 	digest = mix(digest, bits_of(engine->now.page + 0.0));
 	int count = expand(engine->now.time, terms, TOUCHSTONE_MOST_TERMS);
 	for (int i = 0; i < count; i++) digest = mix(digest, bits_of(terms[i]));
-	engine->digest = digest;
+	return digest;
+}
+
+/* Enters an event into the digest: its rank says kind and particles, its moment when. */
+static void record(struct touchstone_engine *engine, uint64_t rank)
+{
+	static const uint64_t images = 63; /* of no meaning outside: when a particle changes its image is bookkeeping */
+	engine->digest = mix_now(engine, mix(engine->digest, rank & ~images));
 	engine->events++;
 }
 
@@ -198,6 +203,11 @@ static inline void part(struct touchstone_engine *engine, const struct encounter
 	count_stall(engine, j, (uint8_t)event->kind, i, encounter->j_stalls);
 }
 
+static void exchange_heat(struct touchstone_engine *engine, uint32_t i, uint32_t j);
+static void take_heat(struct touchstone_engine *engine, uint32_t i, const struct wall *wall);
+static void draw_velocity(const struct touchstone_engine *engine, uint32_t i, const struct wall *wall, num velocity[3]);
+static void leave_thermal_wall(struct touchstone_engine *engine, uint32_t i, const num velocity[3]);
+
 /* Two particles collide (2014 paper, eqs. 3 to 5). */
 static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
 {
@@ -215,6 +225,7 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 	int state = engine->pairs.bucket ? (int)pairs_get(&engine->pairs, i, entry) : 0;
 	struct touchstone_event event = {.kind = TOUCHSTONE_CONTACT, .before = state, .after = state};
 	part(engine, &encounter, kick, &event, contact_distance(engine, i, encounter.j));
+	if (engine->temperature && !engine->elastic) exchange_heat(engine, i, encounter.j);
 }
 
 /* A particle meets a wall. */
@@ -225,8 +236,13 @@ static void rebound(struct touchstone_engine *engine, uint32_t i, uint32_t numbe
 	struct body *body = &engine->body[i];
 	advance(engine, body, &engine->place[i], engine->now);
 	struct flight over = over_wall(engine, i, wall);
+	bool thermal = engine->thermostat > 0 && !engine->elastic;
 	double coefficient = engine->elastic || brief ? 1 : restitution_at(wall->restitution, -to_double(over.speed));
-	num kick = mul(add(from_double(1), from_double(coefficient)), over.speed);
+	num kick = mul(add(from_double(1), from_double(coefficient)), over.speed), leaves[3];
+	if (thermal) {
+		draw_velocity(engine, i, wall, leaves);
+		kick = sub(over.speed, dot(wall->normal, leaves));
+	}
 	if (engine->observer) {
 		uint32_t species = engine->place[i].species;
 		num contact = engine->radius[species];
@@ -234,8 +250,12 @@ static void rebound(struct touchstone_engine *engine, uint32_t i, uint32_t numbe
 		tell(engine, &event, i, number, add(over.distance, contact), contact, negated(over.speed),
 			 mul(engine->mass[species], kick));
 	}
-	for (int axis = 0; axis < engine->dimensions; axis++)
-		body->velocity[axis] = sub(body->velocity[axis], mul(kick, wall->normal[axis]));
+	if (thermal)
+		leave_thermal_wall(engine, i, leaves);
+	else
+		for (int axis = 0; axis < engine->dimensions; axis++)
+			body->velocity[axis] = sub(body->velocity[axis], mul(kick, wall->normal[axis]));
+	if (engine->temperature && !engine->elastic) take_heat(engine, i, wall);
 	record(engine, rank_of(engine, i, number, TOUCHSTONE_WALL));
 	engine->kinds[TOUCHSTONE_WALL]++;
 	engine->itinerary[i].changes++;

@@ -29,7 +29,8 @@ static void engine_destroy(struct touchstone_engine *engine)
 	void *owned[] = {engine->body,           engine->place,          engine->itinerary, engine->index_of,
 					 engine->radius,         engine->mass,           engine->wall,      engine->candidate[0],
 					 engine->shadows.shadow, engine->shadows.radius, engine->potential, engine->potential_of,
-					 engine->virtual_wall,   engine->side,           engine->crossed,   engine->captured};
+					 engine->virtual_wall,   engine->side,           engine->crossed,   engine->captured,
+					 engine->temperature};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -244,7 +245,8 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	engine->digest = first_digest;
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
 	bool made = set_species_and_walls(engine, scene) && set_potentials(engine, scene) &&
-				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
+				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_heat(engine, scene) &&
+				set_sieve(engine);
 	if (made) read_policy(engine, scene);
 	*error = '\0';
 	made = made && (snapshot ? take_in(engine, snapshot, error) : begin(engine));

@@ -11,6 +11,7 @@
 #include "engine/sieve.h"
 #include "overlap/excess.h"
 #include "scene/potential.h"
+#include "scene/random.h"
 #include "touchstone.h"
 #include "unit/unit.h"
 
@@ -32,7 +33,6 @@ extern const struct unit THIS_UNIT;
 #include "finder/finder.inl"
 
 #include "finder/batch.h"
-#include "method/exact_time.h"
 #include "method/stable.inl"
 
 #include "method/compensated.inl"
@@ -41,7 +41,10 @@ extern const struct unit THIS_UNIT;
 #include "method/naive.inl"
 #include "method/numerical_recipes.inl"
 #include "method/rewind.inl"
+#ifndef TOUCHSTONE_WITHOUT_MPFR
+#include "method/exact_time.h"
 #include "method/rounded.inl"
+#endif
 #include "method/search.inl"
 #include "method/shrink.inl"
 #include "method/skip.inl"
@@ -64,9 +67,11 @@ extern const struct unit THIS_UNIT;
 #include "engine/policy.inl"
 
 #include "engine/collide.inl"
+
+#include "engine/convection.inl"
 #include "engine/crossing.inl"
-#include "engine/overlaps.inl"
 #include "engine/layout.inl"
+#include "engine/overlaps.inl"
 #include "engine/step.inl"
 
 #include "engine/rescale.inl"

@@ -10,7 +10,8 @@ static size_t state_memory(const struct touchstone_engine *engine)
 static size_t engine_memory(const struct touchstone_engine *engine)
 {
 	size_t each = sizeof *engine->body + sizeof *engine->place + sizeof *engine->itinerary + sizeof *engine->index_of +
-				  (engine->shadows.shadow ? sizeof *engine->shadows.shadow : 0);
+				  (engine->shadows.shadow ? sizeof *engine->shadows.shadow : 0) +
+				  (engine->temperature ? sizeof *engine->temperature : 0);
 	return sizeof *engine + engine->count * each + state_memory(engine) + agenda_memory(&engine->agenda) +
 		   engine->cells.entries * sizeof *engine->cells.entry;
 }
@@ -29,6 +30,8 @@ static void engine_status(const struct touchstone_engine *engine, struct touchst
 		.crossings = engine->kinds[TOUCHSTONE_CROSSING],
 		.captured = engine->pairs.count,
 		.potential_energy = potential_energy(engine),
+		.kicked_energy = engine->kicked_energy,
+		.thermostat_energy = engine->thermostat_energy,
 		.lookups = engine->lookups,
 		.time = moment_double(engine->now),
 		.digest = engine->digest,
@@ -42,6 +45,7 @@ static void engine_status(const struct touchstone_engine *engine, struct touchst
 static void engine_recount(struct touchstone_engine *engine)
 {
 	engine->events = engine->lookups = 0;
+	engine->kicked_energy = engine->thermostat_energy = 0;
 	memset(engine->kinds, 0, sizeof engine->kinds);
 	for (size_t w = 0; w < engine->virtual_wall_count; w++)
 		memset(engine->virtual_wall[w].flux, 0, sizeof engine->virtual_wall[w].flux);
@@ -191,6 +195,8 @@ static void engine_explain(const struct touchstone_engine *engine, void (*line)(
 	line(context, engine->species_count > 1 ? "species: several, contact distance per pair"
 											: "species: one, so one contact distance for all pairs");
 	explain_states(engine, line, context);
+	if (engine->temperature) line(context, "convection: particles carry heat, and collisions kick them by it");
+	if (engine->thermostat > 0) line(context, "walls: thermal, velocities drawn from particle and time of the event");
 	explain_policy(engine, line, context);
 }
 
@@ -206,6 +212,7 @@ const struct unit THIS_UNIT = {
 	.elastic = engine_elastic,
 	.rescale = engine_rescale,
 	.state = engine_state,
+	.temperature = engine_temperature,
 	.separation = engine_separation,
 	.overlaps = engine_overlaps,
 	.pair_state = engine_pair_state,

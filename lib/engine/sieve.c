@@ -266,6 +266,10 @@ static void cast_any(struct shadow *shadow, double x, double y, double z, double
 							  .radius = (float)radius};
 }
 
+#ifdef __wasm_simd128__
+#include "engine/sieve_wasm.inl"
+#endif
+
 #ifdef __x86_64__
 #define AVX2 __attribute__((target("avx2,fma,bmi,bmi2")))
 #define AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,fma,popcnt,bmi,bmi2")))
@@ -364,6 +368,9 @@ const struct sieve_machine *sieve_machine(size_t number)
 				__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
 	if (fast && number-- == 0) return &avx512;
 	if (fair && number-- == 0) return &avx2;
+#elif defined __wasm_simd128__
+	static const struct sieve_machine simd = {"WebAssembly SIMD", pass_128, hold_128, cast_any};
+	if (number-- == 0) return &simd;
 #endif
 	return number == 0 ? &any : NULL;
 }

@@ -56,6 +56,8 @@ static struct strips strips_of(struct touchstone_engine *engine)
 		{"kinds", TOUCHSTONE_COUNTS, OF_ENGINE, sizeof engine->kinds / sizeof *engine->kinds, engine->kinds, 0},
 		{"lookups", TOUCHSTONE_COUNTS, OF_ENGINE, 1, &engine->lookups, 0},
 		{"digest", TOUCHSTONE_COUNTS, OF_ENGINE, 1, &engine->digest, 0},
+		{"kicked_energy", TOUCHSTONE_DOUBLES, OF_ENGINE, 1, &engine->kicked_energy, 0},
+		{"thermostat_energy", TOUCHSTONE_DOUBLES, OF_ENGINE, 1, &engine->thermostat_energy, 0},
 		{"elastic", TOUCHSTONE_BYTES, OF_ENGINE, 1, &engine->elastic, 0},
 		{"uneven", TOUCHSTONE_BYTES, OF_ENGINE, 1, &engine->uneven, 0},
 		{"verdict", TOUCHSTONE_INTEGERS, OF_ENGINE, 1, &engine->verdict, 0},
@@ -65,6 +67,9 @@ static struct strips strips_of(struct touchstone_engine *engine)
 		{"page_length", TOUCHSTONE_DOUBLES, OF_SCENE, 1, &engine->page_length, 0},
 	};
 	add_strips(&strips, always, sizeof always / sizeof *always);
+	const struct strip heat = {"temperature",       TOUCHSTONE_NUMBERS,         OF_PARTICLES, 1,
+							   engine->temperature, sizeof *engine->temperature};
+	if (engine->temperature) add_strips(&strips, &heat, 1);
 	size_t walls = engine->virtual_wall_count;
 	if (!walls) return strips;
 	struct touchstone_flux *flux = engine->virtual_wall->flux;
@@ -78,7 +83,7 @@ static struct strips strips_of(struct touchstone_engine *engine)
 		{"flux_against_count", TOUCHSTONE_COUNTS, OF_WALLS, 1, &flux[1].count, sizeof *engine->virtual_wall},
 		{"flux_against", TOUCHSTONE_DOUBLES, OF_WALLS, SUMS, &flux[1].mass, sizeof *engine->virtual_wall},
 	};
-	_Static_assert(sizeof always + sizeof at_walls < sizeof strips.strip, "and the captured pairs");
+	_Static_assert(sizeof always + sizeof heat + sizeof at_walls < sizeof strips.strip, "and the captured pairs");
 	add_strips(&strips, at_walls, sizeof at_walls / sizeof *at_walls);
 	return strips;
 }

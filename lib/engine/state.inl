@@ -63,6 +63,7 @@ struct wall {
 	int32_t index[3];
 	num normal[3];
 	num acceleration; /* along the normal */
+	num temperature;  /* NaN: it passes no heat on */
 	struct touchstone_restitution restitution;
 };
 
@@ -136,6 +137,11 @@ struct touchstone_engine {
 	num outermost;          /* distance at which two particles first meet, where there is one species, */
 	uint8_t outermost_kind; /* and what then happens: enum touchstone_kind, or MEETS_NOTHING */
 
+	/* heat */
+	num *temperature;  /* per particle; NULL: they carry none */
+	num kick, neutral; /* of convection */
+	double thermostat; /* kT of thermal walls; 0: walls are not thermal */
+
 	/* what the method's policy needs (policy.inl) */
 	num contact_time,
 		margin;           /* of POLICY_BRIEF_ELASTIC, and of POLICY_EARLY: how much farther contacts are looked for */
@@ -171,6 +177,7 @@ struct touchstone_engine {
 	/* what has happened */
 	struct moment now;
 	uint64_t events, kinds[TOUCHSTONE_CROSSING + 1], lookups, digest; /* kinds: events of each kind */
+	double kicked_energy, thermostat_energy;
 	enum touchstone_verdict verdict;
 	char reason[160];
 	uint32_t blamed[2];

@@ -31,7 +31,9 @@ enum {
 	NAIVE,
 	GUARDED,
 	COMPENSATED,
+#ifndef TOUCHSTONE_WITHOUT_MPFR
 	ROUNDED,
+#endif
 	REWIND,
 	SKIP,
 	SEARCH,
@@ -52,8 +54,10 @@ static const struct method methods[METHODS] = {
 				 guarded_claim, 0},
 	[COMPENSATED] = {"compensated", SIEVE_ORDER, compensated_ball_ball, compensated_ball_leave, compensated_ball_plane,
 					 stable_half_space, compensated_claim, 0},
+#ifndef TOUCHSTONE_WITHOUT_MPFR
 	[ROUNDED] = {"rounded", SIEVE_ORDER, rounded_ball_ball, rounded_ball_leave, rounded_ball_plane, rounded_half_space,
 				 rounded_claim, 0},
+#endif
 	[REWIND] = {.name = "rewind",
 				.ball_ball = naive_ball_ball,
 				.ball_plane = naive_ball_plane,

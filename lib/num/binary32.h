@@ -48,6 +48,7 @@ static inline num times_power(num x, long exponent)
 	return scalbnf(x, (int)exponent);
 }
 
+#ifndef TOUCHSTONE_WITHOUT_MPFR
 /* Exactly, into an `exact` of num_exact_bits. */
 static inline void to_mpfr(mpfr_ptr exact, num x)
 {
@@ -59,5 +60,6 @@ static inline num from_mpfr(mpfr_srcptr x)
 {
 	return mpfr_get_flt(x, MPFR_RNDN);
 }
+#endif
 
 #endif

@@ -5,10 +5,11 @@
 #define NUM_NATIVE_H
 
 #include <math.h>
-#include <mpfr.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
+
+#include "num/conversion.h"
 
 /* Chooses the significand bits of this thread; false, changing nothing, when the arithmetic does not have them.
  * 0 stands for the only choice there is. */

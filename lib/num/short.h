@@ -9,10 +9,11 @@
 
 #include <float.h>
 #include <math.h>
-#include <mpfr.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
+
+#include "num/conversion.h"
 
 _Static_assert(FLT_EVAL_METHOD == 0, "double operations must round to double, not to something wider");
 
@@ -176,6 +177,7 @@ static inline int num_exact_bits(num x)
 	return DBL_MANT_DIG;
 }
 
+#ifndef TOUCHSTONE_WITHOUT_MPFR
 /* Exactly, into an `exact` of num_exact_bits. */
 static inline void to_mpfr(mpfr_ptr exact, num x)
 {
@@ -198,5 +200,6 @@ static inline num from_mpfr(mpfr_srcptr x)
 	mpfr_clear(kept);
 	return result;
 }
+#endif
 
 #endif

@@ -12,11 +12,11 @@
 
 #include <float.h>
 #include <math.h>
-#include <mpfr.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
+#include "num/conversion.h"
 #include "num/error_free.h"
 
 typedef struct two num;
@@ -203,6 +203,7 @@ static inline int num_exact_bits(num x)
 	return x.low == 0 ? DBL_MANT_DIG : DBL_MANT_DIG + 1 + (int)(exponent_of(x) - ilogb(x.low) + DBL_MANT_DIG);
 }
 
+#ifndef TOUCHSTONE_WITHOUT_MPFR
 /* Exactly, into an `exact` of num_exact_bits. */
 static inline void to_mpfr(mpfr_ptr exact, num x)
 {
@@ -222,5 +223,6 @@ static inline num from_mpfr(mpfr_srcptr x)
 	mpfr_clear(rest);
 	return (num){high, low};
 }
+#endif
 
 #endif

@@ -16,6 +16,7 @@ double excess_quick(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count, const
 	return to_double(divide(sub(squares, mul(s, s)), add(root(squares), s)));
 }
 
+#ifndef TOUCHSTONE_WITHOUT_MPFR
 /* Sums and squares of doubles of any size are held whole. */
 double excess_exact(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count, const double contact[TOUCHSTONE_MOST_TERMS])
 {
@@ -36,6 +37,13 @@ double excess_exact(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count, const
 	mpfr_clears(sum, part, squares, (mpfr_ptr)0);
 	return excess;
 }
+#else
+/* The best there is without MPFR. */
+double excess_exact(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count, const double contact[TOUCHSTONE_MOST_TERMS])
+{
+	return excess_quick(terms, count, contact);
+}
+#endif
 
 double excess_signed(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count, const double contact[TOUCHSTONE_MOST_TERMS])
 {

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "scene/convection.h"
 #include "scene/potential.h"
 #include "scene/spatial_hash.h"
 
@@ -113,6 +114,7 @@ bool scene_check_frame(const struct touchstone_scene *scene, struct scene_error 
 							SCENE_MOST_PARTICLES);
 	if (!check_species(scene, error) || !check_box(scene, error) || !check_walls(scene, error)) return false;
 	if (!scene_check_restitution(scene->restitution, "restitution", error)) return false;
+	if (!convection_check(scene, error)) return false;
 	if (!potential_check(scene, error) || !potential_check_virtual_walls(scene, error)) return false;
 	if (!finite_vector(scene->acceleration))
 		return scene_refuse(error, "gravity", SIZE_MAX, "not finite; accepted: finite numbers");

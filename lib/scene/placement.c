@@ -95,8 +95,9 @@ static bool hopeless(const struct touchstone_scene *scene)
 	return scene->particle_count > 10000 && density_of(scene) > 1.05 * insertion_end(scene->dimensions);
 }
 
-static bool place_at_random(const struct touchstone_scene *scene, struct touchstone_particle *particles,
-							struct random_state *random, struct scene_error *error)
+static bool place_at_random(const struct scene_recipe *recipe, struct touchstone_scene *scene,
+							struct touchstone_particle *particles, struct random_state *random,
+							struct scene_error *error)
 {
 	char text[96];
 	snprintf(text, sizeof text, "accepted: a lower density, up to about %g for equal particles, or a lattice",
@@ -108,11 +109,15 @@ static bool place_at_random(const struct touchstone_scene *scene, struct touchst
 	if (placed == scene->particle_count) return true;
 	if (placed == SIZE_MAX)
 		return scene_refuse(error, "particles", SIZE_MAX, "no memory for %zu", scene->particle_count);
+	if (recipe->packing_limit > 0 && scene->species_count == 1 && placed > 0) { /* those placed come first */
+		scene->particle_count = placed;
+		return true;
+	}
 	return scene_refuse(error, "start.positions", SIZE_MAX, "random placement found room for %zu of %zu particles; %s",
 						placed, scene->particle_count, text);
 }
 
-bool placement_fill(const struct scene_recipe *recipe, const struct touchstone_scene *scene,
+bool placement_fill(const struct scene_recipe *recipe, struct touchstone_scene *scene,
 					struct touchstone_particle *particles, struct random_state *random, struct scene_error *error)
 {
 	if (recipe->positions == SCENE_GIVEN) {
@@ -124,6 +129,6 @@ bool placement_fill(const struct scene_recipe *recipe, const struct touchstone_s
 		return scene_refuse(error, recipe->density > 0 ? "density" : "box", SIZE_MAX,
 							"a density of %g is beyond close packing; accepted: above 0, up to %.9g in %d dimensions",
 							density, floor(limit * 1e8) / 1e8, scene->dimensions);
-	if (recipe->positions == SCENE_RANDOM) return place_at_random(scene, particles, random, error);
+	if (recipe->positions == SCENE_RANDOM) return place_at_random(recipe, scene, particles, random, error);
 	return place_on_lattice(recipe, scene, particles, error);
 }

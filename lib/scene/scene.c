@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/check.h"
+#include "scene/convection.h"
 #include "scene/placement.h"
 #include "scene/random.h"
 #include "scene/velocity.h"
@@ -15,6 +16,7 @@ void scene_free(struct touchstone_scene *scene)
 	free((void *)scene->species);
 	free((void *)scene->walls);
 	free((void *)scene->virtual_walls);
+	convection_free(scene);
 	for (size_t p = 0; p < scene->potential_count; p++) free((void *)scene->potentials[p].steps);
 	free((void *)scene->potentials);
 	*scene = (struct touchstone_scene){0};
@@ -62,6 +64,8 @@ static bool check_recipe(const struct scene_recipe *recipe, struct scene_error *
 		return scene_refuse(error, "start.temperature", SIZE_MAX, "%g; accepted: a finite number above 0",
 							recipe->temperature);
 	if (recipe->species_count < 1) return scene_refuse(error, "species", SIZE_MAX, "none; accepted: 1 or more");
+	if (!(recipe->packing_limit >= 0 && recipe->packing_limit <= 1))
+		return scene_refuse(error, "packing_limit", SIZE_MAX, "%g; accepted: 0 to 1", recipe->packing_limit);
 	return scene_check_restitution(recipe->boundary_restitution, "boundary_restitution", error) &&
 		   (given(recipe) ? check_given(recipe, error) : check_fractions(recipe, error));
 }
@@ -202,21 +206,51 @@ static void set_box(const struct scene_recipe *recipe, struct touchstone_scene *
 	}
 }
 
-bool scene_build(const struct scene_recipe *recipe, uint64_t seed, struct touchstone_scene *scene,
+/* Part of the box that the recipe's particles cover at density 1, on an average over its species. */
+static double covered(const struct scene_recipe *recipe)
+{
+	static const double ball[] = {1, 0.78539816339744831 /* pi / 4 */, 0.52359877559829887 /* pi / 6 */};
+	return ball[recipe->dimensions - 1];
+}
+
+/* The recipe with no more particles than its packing limit allows. */
+static struct scene_recipe within_packing(const struct scene_recipe *recipe)
+{
+	struct scene_recipe within = *recipe;
+	if (given(recipe) || recipe->packing_limit == 0) return within;
+	double most = recipe->packing_limit / covered(recipe), volume = 1, each = 0, count = (double)recipe->particle_count;
+	for (size_t s = 0; s < recipe->species_count; s++) {
+		double diameter = recipe->species[s].body.diameter, power = recipe->species[s].fraction;
+		for (int axis = 0; axis < recipe->dimensions; axis++) power *= diameter;
+		each += power;
+	}
+	for (int axis = 0; axis < recipe->dimensions; axis++) volume *= recipe->box[axis];
+	if (recipe->density > 0) {
+		volume = count * each / recipe->density;
+		within.density = recipe->density < most ? recipe->density : most;
+	}
+	double fitting = floor(most * volume / each);
+	if (count > fitting) within.particle_count = fitting > 1 ? (size_t)fitting : 1;
+	return within;
+}
+
+bool scene_build(const struct scene_recipe *asked, uint64_t seed, struct touchstone_scene *scene,
 				 struct scene_error *error)
 {
 	*scene = (struct touchstone_scene){
-		.dimensions = recipe->dimensions,
-		.restitution = recipe->restitution,
-		.form = recipe->form,
-		.search = recipe->search,
-		.cell = recipe->cell,
-		.clock = recipe->clock,
-		.contact_time = recipe->contact_time,
-		.shrinking = recipe->shrinking,
-		.search_step = recipe->search_step,
+		.dimensions = asked->dimensions,
+		.restitution = asked->restitution,
+		.thermostat = asked->thermostat,
+		.form = asked->form,
+		.search = asked->search,
+		.cell = asked->cell,
+		.clock = asked->clock,
+		.contact_time = asked->contact_time,
+		.shrinking = asked->shrinking,
+		.search_step = asked->search_step,
 	};
-	if (!check_recipe(recipe, error)) return false;
+	if (!check_recipe(asked, error)) return false;
+	struct scene_recipe within = within_packing(asked), *recipe = &within;
 	memcpy(scene->acceleration, recipe->acceleration, sizeof scene->acceleration);
 	struct random_state random = random_seed(seed);
 	struct touchstone_particle *particles = make_particles(recipe, &random);
@@ -232,6 +266,7 @@ bool scene_build(const struct scene_recipe *recipe, uint64_t seed, struct touchs
 	}
 	if (!built) scene_refuse(error, "particles", SIZE_MAX, "no memory for %zu", recipe->particle_count);
 	built = built && scene_check_frame(scene, error) && placement_fill(recipe, scene, particles, &random, error);
+	built = built && convection_start(recipe, scene, error);
 	if (built) velocity_draw(scene, particles, recipe->velocities, recipe->temperature, &random);
 	built = built && scene_check_particles(scene, error);
 	if (!built) scene_free(scene);

@@ -33,6 +33,13 @@ struct scene_species {
 	struct touchstone_species body;
 };
 
+/* Heat, where particles carry it: at the start 1 above the diagonal of the first and the last axis, 0 below. */
+struct scene_convection {
+	bool heats;           /* false: none of this */
+	double kick, neutral; /* as in struct touchstone_convection */
+	double walls[2];      /* temperatures of the walls at the lower and the upper end of the last axis */
+};
+
 struct scene_recipe {
 	int dimensions;
 	size_t particle_count;
@@ -51,6 +58,10 @@ struct scene_recipe {
 	size_t virtual_wall_count;
 	const struct touchstone_virtual_wall *virtual_walls; /* normals of any length above 0 */
 	double acceleration[3];
+	struct scene_convection convection;
+	double thermostat;    /* kT of thermal walls; 0: none */
+	double packing_limit; /* of the box that particles cover: beyond it fewer are placed than asked for, as when random
+							 placement finds no more room; 0: none */
 	enum scene_positions positions;
 	enum scene_velocities velocities;
 	double temperature;                          /* kT; 0: not stated */

@@ -20,6 +20,7 @@ struct unit {
 	void (*elastic)(struct touchstone_engine *, bool);
 	bool (*rescale)(struct touchstone_engine *, int exponent);
 	void (*state)(const struct touchstone_engine *, uint32_t particle, double position[3], double velocity[3]);
+	double (*temperature)(const struct touchstone_engine *, uint32_t particle);
 	int (*separation)(const struct touchstone_engine *, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 					  double contact[TOUCHSTONE_MOST_TERMS]);
 	size_t (*overlaps)(const struct touchstone_engine *, uint32_t particle, struct touchstone_overlap *, size_t room);

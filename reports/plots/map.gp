@@ -5,6 +5,8 @@ width = 860; height = 480; left_edge = 82; right_edge = 96; top_edge = 14; botto
 eval paper(width, height)
 unset grid
 unset key
+unset logscale
+set format '%g'
 set xlabel x_label
 set ylabel y_label
 set border 15 linewidth 1 linecolor rgb soft

@@ -4,8 +4,11 @@ eval paper(860, 480)
 set xlabel x_label
 set ylabel y_label
 set lmargin 11
+set autoscale # a range that is given would hide from the next line what lies outside it
 stats 'data' using 1 name 'across' nooutput
 stats 'data' using (visible(y_log, $2)) name 'up' nooutput
+eval given_range('x', x_given, x_low, x_high)
+eval given_range('y', y_given, y_low, y_high)
 if (!x_given) { eval roomy('x', x_log, across_min, across_max) }
 if (!y_given) { eval roomy('y', y_log, up_min, up_max) }
 

@@ -146,6 +146,43 @@ static void none_has_a_lane(void **state)
 	free(svg);
 }
 
+/* On a map the words stand in the cells, and the discs on them, in the order of the axes. */
+static void cells_of_a_map_have_words(void **state)
+{
+	(void)state;
+	static const char *const plane[] = {"x", "y", "value", NULL};
+	static const char *const words[] = {"alpha", "beta", "gamma", "delta", "epsilon", "none"};
+	struct result *result = result_new("chart", "Chart");
+	struct result_figure figure = result_figure(result, &(struct figure_frame){.name = "f",
+																			   .kind = "map",
+																			   .title = "Map",
+																			   .caption = "",
+																			   .alternative = "",
+																			   .x = {"across", 0, {0, 0}},
+																			   .y = {"up", 0, {0, 0}},
+																			   .columns = plane});
+	struct figure_series series = figure_series(figure, "one", SERIES_POINTS);
+	for (int cell = 0; cell < 6; cell++) {
+		series_row(series, (double[]){0.2 + 0.1 * (cell % 3), 10 + 5 * (cell / 3), cell < 5 ? exp(-2 * cell) : NAN});
+		series_mark(series, &(struct series_mark){words[cell], words[cell], NULL, true});
+	}
+	char *svg = drawn(result, NULL);
+	double at[6][2];
+	for (int cell = 0; cell < 6; cell++) {
+		char text[40];
+		snprintf(text, sizeof text, "<title>%s<", words[cell]);
+		place_of(svg, text, at[cell]);
+		snprintf(text, sizeof text, ">%s<", words[cell]);
+		assert_non_null(strstr(svg, text));
+	}
+	for (int cell = 0; cell < 6; cell++) {
+		assert_true(fabs(at[cell][0] - at[cell % 3][0]) < 0.1 && fabs(at[cell][1] - at[cell / 3 * 3][1]) < 0.1);
+		assert_true(cell % 3 == 0 || at[cell][0] > at[cell - 1][0] + 100);
+		assert_true(cell < 3 || at[cell][1] < at[cell - 3][1] - 100);
+	}
+	free(svg);
+}
+
 static void marks_are_all_or_none(void **state)
 {
 	(void)state;
@@ -167,6 +204,7 @@ int main(void)
 		cmocka_unit_test(points_have_texts_and_links),
 		cmocka_unit_test(discs_lie_on_the_points),
 		cmocka_unit_test(none_has_a_lane),
+		cmocka_unit_test(cells_of_a_map_have_words),
 		cmocka_unit_test(marks_are_all_or_none),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -53,6 +53,35 @@ static int for_each(const char *ending, void (*look)(const char *name))
 	return count;
 }
 
+/* Links to the live page stand where the page lies beside the report, and only there; parameters are parameters. */
+static void live_page_is_linked_where_it_is(void **state)
+{
+	(void)state;
+	char *folder = folder_new(), *stored, *pages;
+	assert_true(asprintf(&stored, "%s/results", folder) > 0 && asprintf(&pages, "%s/report", folder) > 0);
+	assert_true(aside_folder(stored, error));
+	struct result *result = result_new("shown", "Something to see");
+	result_live(result, "See & believe", "scene=gas&against=binary32");
+	put(result, stored);
+	for (int there = 0; there < 2; there++) {
+		if (there) folder_put(folder, "live.html", "<p>");
+		if (!report_write(stored, pages, error)) fail_msg("%s", error);
+		char *text = folder_text(pages, "shown.html");
+		bool linked = strstr(text, "href=\"../live.html?scene=gas&amp;against=binary32\">See &amp; believe</a>");
+		assert_int_equal(linked, there);
+		assert_int_equal(strstr(text, "See it happen") != NULL, there);
+		free(text);
+	}
+	result = result_new("shown", "Something to see");
+	result_live(result, "Not parameters", "scene=gas\" onclick=\"");
+	assert_false(result_write(result, stored, error));
+	assert_non_null(strstr(error, "no parameters of the live page"));
+	result_free(result);
+	free(stored);
+	free(pages);
+	folder_remove(folder);
+}
+
 static void check_markup(const char *name)
 {
 	char *command;
@@ -248,7 +277,7 @@ static void every_kind_takes_every_style(void **state)
 {
 	(void)state;
 	static const char *const kinds[] = {"impact-histogram", "trajectory", "scaling", "curves", "bars",
-										"frontier",         "discs"};
+										"frontier",         "discs",      "map"};
 	static const char *const columns[] = {"left",  "right", "height", "time",  "remaining", "bits",
 										  "error", "x",     "y",      "low",   "high",      "category",
 										  "value", "best",  "radius", "speed", "touched",   NULL};
@@ -257,13 +286,13 @@ static void every_kind_takes_every_style(void **state)
 									  {2, 4, 0.25, 1, 1, 24, 0.01, 2, 4, 3, 6, 1, 4, 0, 0.5, 1, 0}};
 	char *in = folder_new(), *out = folder_new();
 	struct result *result = result_new("r", "R");
-	for (unsigned i = 0; i < 28; i++) {
+	for (unsigned i = 0; i < 32; i++) {
 		char name[20];
 		snprintf(name, sizeof name, "f%u", i);
 		const unsigned bases[] = {0, 10, 2};
 		struct figure_axis axis = {.label = "axis", .logarithmic = bases[i % 3]};
 		struct result_figure figure = result_figure(result, &(struct figure_frame){.name = name,
-																				   .kind = kinds[i % 7],
+																				   .kind = kinds[i % 8],
 																				   .title = name,
 																				   .caption = "",
 																				   .alternative = "",
@@ -271,13 +300,13 @@ static void every_kind_takes_every_style(void **state)
 																				   .y = axis,
 																				   .columns = columns,
 																				   .categories = categories});
-		struct figure_series series = figure_series(figure, "alone", (enum series_style)(i / 7));
+		struct figure_series series = figure_series(figure, "alone", (enum series_style)(i / 8));
 		series_row(series, rows[0]), series_row(series, rows[1]);
 	}
 	put(result, in);
 	assert_true(report_write(in, out, error));
 	assert_string_equal(error, "");
-	assert_int_equal(folder_count(out, ".svg"), 28);
+	assert_int_equal(folder_count(out, ".svg"), 32);
 	folder_remove(in), folder_remove(out);
 }
 
@@ -304,6 +333,7 @@ int main(int argc, char **argv)
 {
 	report = argc > 1 ? strdup(argv[1]) : NULL;
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(live_page_is_linked_where_it_is),
 		cmocka_unit_test(markup_is_well_formed),
 		cmocka_unit_test(links_lead_somewhere),
 		cmocka_unit_test(text_stays_text),

@@ -10,6 +10,7 @@
 
 #include "command/grading.h"
 #include "command/interrupt.h"
+#include "command/live_links.h"
 #include "command/output.h"
 #include "command/party.h"
 #include "result.h"
@@ -146,6 +147,7 @@ static bool store(const struct wish *wish, const struct grading_plan *plan, cons
 	struct result *result = grading_result(plan, grading, "grade", "How the finders do");
 	snprintf(error, REPORT_ERROR, "out of memory");
 	if (!result) return false;
+	live_links(result, "grade");
 	result_made_by(result, command, grading->seconds, *TOUCHSTONE_REVISION ? TOUCHSTONE_REVISION : NULL);
 	bool stored = result_write(result, wish->results, error);
 	result_free(result);

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "audit/suite.h"
 #include "campaign/campaign_file.h"
@@ -179,15 +178,15 @@ static bool list_suite(const char *folder, const char *base)
 	return suite;
 }
 
-/* Lists what a folder of the cases holds. */
+/* Lists what the folder of the cases holds, or one in it, which need not be there. */
 static bool list_entries(const char *folder, const char *within, bool (*list)(const char *folder, const char *base))
 {
 	struct dirent **entries;
 	char *path;
 	if (asprintf(&path, "%s%s", folder, within) < 0) return false;
 	int count = scandir(path, &entries, is_scene, versionsort);
-	if (count < 0) refuse("--cases: %s: cannot be read: %s; accepted: a folder with scenes", path, strerror(errno));
-	bool good = count >= 0;
+	bool absent = count < 0 && errno == ENOENT && *within, good = count >= 0 || absent;
+	if (!good) refuse("--cases: %s: cannot be read: %s; accepted: a folder with scenes", path, strerror(errno));
 	for (int e = 0; e < count; e++) {
 		good &= list(folder, entries[e]->d_name);
 		free(entries[e]);
@@ -199,12 +198,8 @@ static bool list_entries(const char *folder, const char *within, bool (*list)(co
 
 static bool list_cases(const char *folder)
 {
-	char *stress;
-	if (asprintf(&stress, "%s/stress", folder) < 0) return false;
-	bool stressed = access(stress, R_OK) == 0;
-	free(stress);
-	bool good = list_entries(folder, "", list_case);
-	return (!stressed || list_entries(folder, "/stress", list_stress)) && good;
+	bool plain = list_entries(folder, "", list_case), stress = list_entries(folder, "/stress", list_stress);
+	return plain && stress;
 }
 
 static bool list_campaigns(const char *folder)

@@ -218,6 +218,7 @@ void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t
 	struct simulation simulation;
 	outcome->failed = !simulation_prepare(&simulation, plan->file, seed, outcome->error);
 	if (outcome->failed) return;
+	outcome->particles = simulation.scene.particle_count;
 	const struct checkpoint *resumed = plan->resumed;
 	outcome->failed = (resumed && !checkpointing_fits(plan, &simulation, outcome->error)) ||
 					  !simulation_start(&simulation, plan->file, resumed ? &resumed->state : NULL, outcome->error);

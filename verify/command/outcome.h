@@ -19,6 +19,7 @@
  *	captures, releases     of pairs, at a step of their potential; bounces: turned back there
  *	crossings              of virtual walls, which are no events
  *	captured_pairs         those within a step at the end; potential_energy: of all of them
+ *	kicked_energy          what the kicks of convection brought in; thermostat_energy: what thermal walls did
  *	lookups                bookkeeping: cells crossed and searches repeated
  *	time_begun, time       when equilibration ended, and the last event (or the limit that was reached)
  *	verdict, reason        done, collapsed, halted, diverged, interrupted; why, "" when a limit was reached

@@ -127,6 +127,8 @@ static void set_run(json_t *json, const struct run_plan *plan, const struct outc
 	json_object_set_new(json, "crossings", whole(status->crossings));
 	json_object_set_new(json, "captured_pairs", whole(status->captured));
 	json_object_set_new(json, "potential_energy", number(status->potential_energy));
+	json_object_set_new(json, "kicked_energy", number(status->kicked_energy));
+	json_object_set_new(json, "thermostat_energy", number(status->thermostat_energy));
 	json_object_set_new(json, "lookups", whole(status->lookups));
 	json_object_set_new(json, "time_begun", number(outcome->time_begun));
 	json_object_set_new(json, "time", number(status->time));

@@ -42,6 +42,15 @@ static void print_fluxes(const struct outcome *outcome)
 	}
 }
 
+/* What heat did to the energy, where there is any. */
+static void print_heat(const struct outcome *outcome)
+{
+	const struct touchstone_status *status = &outcome->status;
+	if (status->kicked_energy != 0) outcome_row("kicks", "brought in an energy of %.9g", status->kicked_energy);
+	if (status->thermostat_energy != 0)
+		outcome_row("thermal walls", "brought in an energy of %.9g", status->thermostat_energy);
+}
+
 static void print_one(const struct outcome *outcome)
 {
 	const struct touchstone_status *status = &outcome->status;
@@ -61,6 +70,7 @@ static void print_one(const struct outcome *outcome)
 	if (outcome->checkpoints)
 		outcome_row("checkpoints", "%llu, in %.3g s", (unsigned long long)outcome->checkpoints,
 					outcome->checkpoint_seconds);
+	print_heat(outcome);
 	if (has_steps(status))
 		outcome_row("wall time", "%.3g s, %.4g events per second", outcome->wall_seconds,
 					(double)status->events / outcome->wall_seconds);
@@ -115,6 +125,10 @@ static void print_conservation(const struct run_plan *plan, const struct outcome
 	for (int axis = 0; axis < 3; axis++) pushed |= recipe->boundary[axis] == SCENE_WALLS || recipe->acceleration[axis];
 	outcome_row("energy", "%.17g at first, %.17g at last", begin->energy[0], end->energy[0]);
 	print_drift("", conservation_energy_drift(begin, end), collisions);
+	double brought = outcome->status.kicked_energy + outcome->status.thermostat_energy;
+	if (brought != 0)
+		outcome_row("", "kicks and thermal walls brought in %.9g, so that restitution took %.9g", brought,
+					brought - (end->energy[0] - begin->energy[0]));
 	print_drift("momentum", conservation_momentum_drift(begin, end), collisions);
 	if (pushed) outcome_row("", "walls and gravity change it");
 }
@@ -154,6 +168,9 @@ void outcome_print(const struct run_plan *plan, const struct outcome *outcomes, 
 	outcome_row("scene", "%s: %s", file->name, file->title);
 	outcome_row("particles", "%zu in %d dimension%s", outcomes->particles, file->recipe.dimensions,
 				file->recipe.dimensions > 1 ? "s" : "");
+	if (outcomes->particles < file->recipe.particle_count)
+		outcome_row("", "of %zu asked for: no more found room within the packing limit of %g",
+					file->recipe.particle_count, file->recipe.packing_limit);
 	outcome_row("arithmetic", "%s", file->arithmetic);
 	outcome_row("method", "%s", file->method);
 	if (count == 1)

@@ -11,6 +11,7 @@
 
 #include "campaign/campaign.h"
 #include "command/interrupt.h"
+#include "command/live_links.h"
 #include "command/progress.h"
 #include "command/table_print.h"
 #include "figure/figure.h"
@@ -127,6 +128,7 @@ static int make(int f, const struct arguments *arguments)
 	snprintf(command, sizeof command, "touchstone reproduce %s %s --seed %" PRIu64, figures[f].name,
 			 arguments->full ? "--full" : "--quick", arguments->seed);
 	double seconds = progress_clock() - began;
+	live_links(result, figures[f].name);
 	result_made_by(result, command, seconds, *TOUCHSTONE_REVISION ? TOUCHSTONE_REVISION : NULL);
 	bool written = result_write(result, arguments->results, error);
 	if (written && figures[f].make == figure_atlas) table_print(result, 0); /* it is one table */

@@ -13,13 +13,14 @@ static const struct rung {
 	int bits;
 	uint64_t quick, full;
 } rungs[LADDER_RUNGS] = {
-	{"short:8", 8, 2000, 100000},        {"short:10", 10, 10000, 1000000},     {"short:12", 12, 40000, 10000000},
-	{"short:14", 14, 100000, 100000000}, {"short:16", 16, 200000, 100000000},  {"short:18", 18, 200000, 100000000},
-	{"short:20", 20, 200000, 100000000}, {"short:22", 22, 200000, 100000000},  {"binary32", 24, 200000, 1000000000},
+	{"short:8", 8, 2000, 100000},        {"short:10", 10, 10000, 1000000},     {"short:12", 12, 100000, 10000000},
+	{"short:14", 14, 200000, 100000000}, {"short:16", 16, 200000, 100000000},  {"short:18", 18, 150000, 100000000},
+	{"short:20", 20, 150000, 100000000}, {"short:22", 22, 150000, 100000000},  {"binary32", 24, 200000, 1000000000},
 	{"short:25", 25, 100000, 100000000}, {"mpfr:25", 25, 10000, 1000000},      {"mpfr:32", 32, 10000, 10000000},
 	{"mpfr:40", 40, 10000, 1000000},     {"binary64", 53, 200000, 1000000000},
 };
-enum { FINEST_LATE = 8 }; /* late clocks stand in for the rungs up to this one */
+enum { FINEST_LATE = 8 }; /* late clocks stand in for the rungs up to this one; they are as fast as binary64 is */
+static const uint64_t late_quick = 200000, late_full = 100000000;
 
 void ladder_choose(struct ladder *ladder, bool full)
 {
@@ -40,7 +41,8 @@ void ladder_choose(struct ladder *ladder, bool full)
 			point->bits = 53;
 			point->form = TOUCHSTONE_ABSOLUTE;
 			point->clock = ldexp(1, 53 - rung->bits);
-			if (r < 2 || r > FINEST_LATE) point->events = 0;
+			point->events = full ? late_full : late_quick;
+			if (r > FINEST_LATE) point->events = 0;
 		}
 }
 
@@ -82,6 +84,32 @@ struct rate_fit ladder_fit(const struct ladder *ladder, int lane, enum ladder_qu
 	}
 	bool bursts = quantity != LADDER_ENCOUNTERS && encounters > 0;
 	return rate_fit(rung, used, bursts ? events / encounters : 1);
+}
+
+const char *const ladder_measures[LADDER_MEASURES] = {"mean depth of overlaps", "deepest overlap",
+													  "energy drift in 10^6 events"};
+
+double ladder_measured(const struct gas_tally *tally, enum ladder_measure measure)
+{
+	const struct three_body *three_body = &tally->three_body;
+	if (!three_body->overlapping) return NAN;
+	const double values[LADDER_MEASURES] = {three_body->depth / (double)three_body->overlapping, three_body->deepest,
+											fabs(tally->drift) / (double)three_body->contacts * 1e6};
+	return values[measure];
+}
+
+struct line_fit ladder_line(const struct ladder *ladder, int lane, enum ladder_measure measure, size_t *rungs)
+{
+	double x[LADDER_RUNGS], y[LADDER_RUNGS];
+	*rungs = 0;
+	for (int r = 0; r < LADDER_RUNGS; r++) {
+		const struct gas_point *point = &ladder->point[lane * LADDER_RUNGS + r];
+		const struct gas_tally *tally = &ladder->tally[lane * LADDER_RUNGS + r];
+		if (ladder_bits(point) >= 53 || !gas_lasted(tally) || !(ladder_measured(tally, measure) > 0)) continue;
+		x[*rungs] = ladder_bits(point);
+		y[(*rungs)++] = log2(ladder_measured(tally, measure));
+	}
+	return *rungs < 3 ? (struct line_fit){NAN, NAN, NAN} : fit_line(x, y, *rungs);
 }
 
 const struct gas_tally *ladder_binary64(const struct ladder *ladder, int lane)

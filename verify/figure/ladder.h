@@ -35,6 +35,16 @@ uint64_t ladder_count(const struct gas_tally *tally, enum ladder_quantity quanti
 /* The line through all rungs of a lane below 53 bits on which gases lasted. */
 struct rate_fit ladder_fit(const struct ladder *ladder, int lane, enum ladder_quantity quantity);
 
+/* What is measured of a gas: depth of overlaps at impact in diameters, mean and deepest, and the relative change of the
+ * energy in 10^6 events, of elastic gases. NaN where there is none. */
+enum ladder_measure { LADDER_DEPTH, LADDER_DEEPEST, LADDER_DRIFT, LADDER_MEASURES };
+extern const char *const ladder_measures[LADDER_MEASURES];
+double ladder_measured(const struct gas_tally *tally, enum ladder_measure measure);
+
+/* log2 of what is measured over bits, on all rungs of a lane below 53 bits on which gases lasted; `*rungs` of them, of
+ * which fewer than 3 make no line. */
+struct line_fit ladder_line(const struct ladder *ladder, int lane, enum ladder_measure measure, size_t *rungs);
+
 /* The point of a lane in binary64 itself; NULL where it is not finished, and for late clocks. */
 const struct gas_tally *ladder_binary64(const struct ladder *ladder, int lane);
 

@@ -7,7 +7,7 @@ static void add_rung(struct result_table table, const struct gas_point *point, c
 {
 	const struct three_body *three_body = &tally->three_body;
 	double contacts = (double)three_body->contacts, overlapping = (double)three_body->overlapping;
-	double ulp = ldexp(1, -point->bits); /* of the numbers just below a contact distance of 1 */
+	double ulp = exp2(-ladder_bits(point)); /* the step of the numbers just below a contact distance of 1 */
 	struct interval below = interval_of_proportion(three_body->overlapping, three_body->contacts), rate;
 	double events = three_body_rate(three_body, &rate);
 	table_text(table, "%s%s", point->arithmetic, point->clock > 0 ? ", absolute" : "");
@@ -47,10 +47,11 @@ static void add_lane(struct result *result, const struct ladder *ladder, int lan
 	snprintf(title, sizeof title, "The rungs: restitution and density %s", ladder_label(ladder, lane, label));
 	struct result_table table = result_table(
 		result, title,
-		lane == 0 ? "Depths are those of overlaps at impact; ulp is 2^-P, the step of the numbers just below contact. "
-					"Repeated: the same pair again, with no other event of either between. Entangled: a pair more "
-					"than 16 ulp deep at two looks in a row, ten collisions per particle apart."
-				  : NULL,
+		lane == 0
+			? "Depths are those of overlaps at impact; ulp is 2^-bits, the step of the numbers just below contact. "
+			  "Repeated: the same pair again, with no other event of either between. Entangled: a pair more "
+			  "than 16 ulp deep at two looks in a row, ten collisions per particle apart."
+			: NULL,
 		columns);
 	for (int r = 0; r < LADDER_RUNGS; r++) {
 		const struct gas_tally *tally = &ladder->tally[lane * LADDER_RUNGS + r];
@@ -74,7 +75,10 @@ static void add_fit(struct result_table table, const struct ladder *ladder, int 
 	table_count(table, fit.rungs);
 	table_text(table, "%.2g", fit.dispersion);
 	double rate = rate_fit_at(&fit, 53, &interval);
-	table_text(table, "%.2g (%.2g to %.2g)", rate, interval.low, interval.high);
+	if (rate_fit_exponent_error(&fit) < 0.3)
+		table_text(table, "%.2g (%.2g to %.2g)", rate, interval.low, interval.high);
+	else
+		table_text(table, "no telling");
 	if (direct) {
 		uint64_t count = ladder_count(direct, quantity);
 		interval = interval_of_rate(count, (double)direct->three_body.contacts);
@@ -85,21 +89,47 @@ static void add_fit(struct result_table table, const struct ladder *ladder, int 
 	}
 }
 
+static void add_line(struct result_table table, const struct ladder *ladder, int lane, enum ladder_measure measure)
+{
+	char label[64];
+	size_t rungs;
+	struct line_fit line = ladder_line(ladder, lane, measure, &rungs);
+	const struct gas_tally *direct = ladder_binary64(ladder, lane);
+	bool cools = ladder->point[lane * LADDER_RUNGS].restitution < 1, drifts = measure == LADDER_DRIFT;
+	if (isnan(line.slope) || (drifts && (cools || ladder_late(lane)))) return;
+	table_row(table);
+	table_text(table, "%s", ladder_label(ladder, lane, label));
+	table_text(table, "%s", ladder_measures[measure]);
+	table_text(table, "%.3f ± %.3f", -line.slope, line.slope_error);
+	table_count(table, rungs);
+	table_text(table, "-");
+	table_text(table, "%.2g", exp2(line.intercept + 53 * line.slope));
+	if (direct)
+		table_text(table, "%.2g", ladder_measured(direct, measure));
+	else
+		table_text(table, "-");
+}
+
 void ladder_tables(struct result *result, const struct ladder *ladder)
 {
 	static const char *const columns[] = {
-		"restitution, density",        "what", "exponent", "rungs", "scatter", "at 53 bits, by the line (95 %)",
-		"in binary64, counted (95 %)", NULL};
+		"restitution, density",      "what", "exponent", "rungs", "scatter", "at 53 bits, by the line (95 %)",
+		"in binary64 itself (95 %)", NULL};
 	struct result_table table =
 		result_table(result, "How rates fall with the bits carried",
 					 "rate ~ 2^(-exponent P), the most likely line for Poisson counts on all rungs below 53 bits; its "
 					 "error allows for "
 					 "events that come in bursts and for the scatter around the line (1: that of Poisson counts), but "
 					 "not for a bend "
-					 "beyond the rungs. What is counted nowhere, or on one rung only, has no line.",
+					 "beyond the rungs. Where the scatter is large there is no straight line to speak of. What is "
+					 "counted nowhere, or on "
+					 "one rung only, has none. Depths, in diameters, and drifts: lines of least squares.",
 					 columns);
-	for (int lane = 0; lane < LADDER_LANES; lane++)
+	for (int lane = 0; lane < LADDER_LANES; lane++) {
 		for (int quantity = 0; quantity < LADDER_QUANTITIES; quantity++)
 			add_fit(table, ladder, lane, (enum ladder_quantity)quantity);
+		for (int measure = 0; measure < LADDER_MEASURES; measure++)
+			add_line(table, ladder, lane, (enum ladder_measure)measure);
+	}
 	for (int lane = 0; lane < LADDER_LANES; lane++) add_lane(result, ladder, lane);
 }

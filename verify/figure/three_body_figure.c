@@ -240,7 +240,8 @@ static void claim_elastic(struct result *result, const struct planes *planes)
 				 });
 }
 
-/* The point of a layer at which gases that last have the highest rate, of inelastic ones; SIZE_MAX: nowhere. */
+/* The point of a layer at which gases that last have the highest rate, of inelastic ones; SIZE_MAX: nowhere, or some
+ * are not finished. */
 static size_t highest(const struct planes *planes, int layer, uint64_t *count)
 {
 	size_t where = SIZE_MAX;
@@ -248,6 +249,7 @@ static size_t highest(const struct planes *planes, int layer, uint64_t *count)
 	struct interval interval;
 	for (size_t p = place(layer, 0, 0); p < place(layer + 1, 0, 0); p++) {
 		const struct gas_tally *tally = &planes->tally[p];
+		if (!tally->finished) return SIZE_MAX;
 		if (planes->point[p].restitution == 1 || !seen(tally)) continue;
 		double rate = three_body_rate(&tally->three_body, &interval);
 		*count += tally->three_body.contacts;

@@ -148,7 +148,7 @@ static bool follow(struct keeper *keeper, uint64_t events, bool counted, enum to
 			take_back(gas, &tally[0]);
 			return true;
 		}
-		if (counted && part == slice) mishaps_look(&gas->mishaps, keeper->engine);
+		if (counted) mishaps_look(&gas->mishaps, keeper->engine);
 		if (counted) gas->drift += conservation_energy_drift(&before, &after);
 		tally[0] = tally[1];
 		tally[1] = tally_of(gas);

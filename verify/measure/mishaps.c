@@ -8,8 +8,9 @@ bool mishaps_begin(struct mishaps *mishaps, size_t particles, int bits)
 	*mishaps = (struct mishaps){.deep = ldexp(MISHAP_DEEP, 1 - bits)};
 	bool enough = three_body_begin(&mishaps->three_body, particles);
 	mishaps->partner = calloc(particles, sizeof *mishaps->partner);
+	mishaps->met = calloc(particles, sizeof *mishaps->met);
 	mishaps->deeply = calloc(particles, sizeof *mishaps->deeply);
-	if (enough && mishaps->partner && mishaps->deeply) return true;
+	if (enough && mishaps->partner && mishaps->met && mishaps->deeply) return true;
 	mishaps_end(mishaps);
 	return false;
 }
@@ -18,8 +19,21 @@ void mishaps_end(struct mishaps *mishaps)
 {
 	three_body_end(&mishaps->three_body);
 	free(mishaps->partner);
+	free(mishaps->met);
 	free(mishaps->deeply);
 	mishaps->partner = mishaps->deeply = NULL;
+	mishaps->met = NULL;
+}
+
+/* How far two particles have come, seen from each other, since a time: less than a diameter, and they cannot have met
+ * by way of another image. */
+static double come_since(const struct touchstone_engine *engine, const struct touchstone_event *event, double time)
+{
+	double position[3], first[3], second[3], square = 0;
+	touchstone_state(engine, event->first, position, first);
+	touchstone_state(engine, event->second, position, second);
+	for (int axis = 0; axis < 3; axis++) square += (first[axis] - second[axis]) * (first[axis] - second[axis]);
+	return sqrt(square) * (event->time - time);
 }
 
 void mishaps_see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
@@ -28,9 +42,11 @@ void mishaps_see(void *context, struct touchstone_engine *engine, const struct t
 	uint32_t *partner = mishaps->partner, first = event->first, second = event->second;
 	if (event->kind == TOUCHSTONE_WALL) partner[first] = 0;
 	if (event->kind != TOUCHSTONE_CONTACT) return;
-	mishaps->repeated += partner[first] == second + 1 && partner[second] == first + 1;
+	bool again = partner[first] == second + 1 && partner[second] == first + 1;
+	mishaps->repeated += again && come_since(engine, event, mishaps->met[first]) < 1;
 	partner[first] = second + 1;
 	partner[second] = first + 1;
+	mishaps->met[first] = mishaps->met[second] = event->time;
 	three_body_see(&mishaps->three_body, engine, event);
 }
 
@@ -47,5 +63,6 @@ void mishaps_look(struct mishaps *mishaps, const struct touchstone_engine *engin
 		bool still = deepest && deepest == mishaps->deeply[particle];
 		mishaps->entangled += still && particle < deepest - 1;
 		mishaps->deeply[particle] = deepest;
+		mishaps->partner[particle] = 0;
 	}
 }

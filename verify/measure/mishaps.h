@@ -7,10 +7,12 @@
 
 struct mishaps {
 	struct three_body three_body;
-	uint64_t repeated;  /* contacts of a pair of which neither has had another event since their last one */
+	uint64_t repeated; /* contacts of a pair of which neither has had another event since their last one; not those of a
+						  particle with another image of its partner, for which it flies through the box */
 	uint64_t entangled; /* pairs found overlapping deeply at two looks in a row, once a look */
 	double deep;        /* what a deep overlap is: MISHAP_DEEP units in the last place of a contact distance of 1 */
-	uint32_t *partner;  /* per particle: 1 + whom it met last; 0: nobody, or a wall */
+	uint32_t *partner;  /* per particle: 1 + whom it met last since the last look; 0: nobody, or a wall */
+	double *met;        /* and when */
 	uint32_t *deeply;   /* per particle: 1 + whom it overlapped most deeply at the last look; 0: nobody */
 };
 
@@ -25,7 +27,7 @@ void mishaps_end(struct mishaps *mishaps);
 void mishaps_see(void *mishaps, struct touchstone_engine *engine, const struct touchstone_event *event);
 
 /* Looks at every particle for deep overlaps. Looks should be some ten collisions per particle apart: what overlaps by
- * chance has long parted by then. */
+ * chance has long parted by then. Between looks and only there the unit of time may change. */
 void mishaps_look(struct mishaps *mishaps, const struct touchstone_engine *engine);
 
 #endif

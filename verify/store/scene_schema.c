@@ -60,6 +60,11 @@ static const cyaml_schema_field_t body_fields[] = {
 	CYAML_FIELD_STRING_PTR("mass", WORD, struct body_words, mass, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_END};
 
+static const cyaml_schema_field_t convection_fields[] = {
+	CYAML_FIELD_STRING_PTR("kick", WORD, struct convection_words, kick, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("neutral", WORD, struct convection_words, neutral, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_SEQUENCE("walls", WORD, struct convection_words, walls, &number, 2, 2), CYAML_FIELD_END};
+
 static const cyaml_schema_field_t start_fields[] = {
 	CYAML_FIELD_ENUM_PTR("positions", CHOICE, struct start_words, positions, positions, CYAML_ARRAY_LEN(positions)),
 	CYAML_FIELD_ENUM_PTR("velocities", CHOICE, struct start_words, velocities, velocities, CYAML_ARRAY_LEN(velocities)),
@@ -91,6 +96,9 @@ static const cyaml_schema_field_t fields[] = {
 	CYAML_FIELD_SEQUENCE("potentials", WORD, struct scene_words, potentials, &potential, 1, 1000),
 	CYAML_FIELD_SEQUENCE("virtual_walls", WORD, struct scene_words, virtual_walls, &virtual_wall, 1, 1000),
 	CYAML_FIELD_SEQUENCE("gravity", WORD, struct scene_words, gravity, &number, 1, 3),
+	CYAML_FIELD_MAPPING_PTR("convection", WORD, struct scene_words, convection, convection_fields),
+	CYAML_FIELD_STRING_PTR("thermostat", WORD, struct scene_words, thermostat, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("packing_limit", WORD, struct scene_words, packing_limit, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_MAPPING_PTR("start", WORD, struct scene_words, start, start_fields),
 	CYAML_FIELD_STRING_PTR("equilibrate", WORD, struct scene_words, equilibrate, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("seed", WORD, struct scene_words, seed, 0, CYAML_UNLIMITED),

@@ -33,6 +33,11 @@ struct body_words {
 	unsigned position_count, velocity_count;
 };
 
+struct convection_words {
+	char *kick, *neutral, **walls;
+	unsigned walls_count;
+};
+
 struct start_words {
 	int *positions, *velocities; /* enum scene_positions, enum scene_velocities */
 	char *file, *temperature;
@@ -40,7 +45,7 @@ struct start_words {
 
 struct scene_words {
 	char *title, *about, *dimensions, *particles, *density, *restitution, *boundary_restitution;
-	char *equilibrate, *seed, *method, *arithmetic, *cell, *clock, *events, *time;
+	char *thermostat, *packing_limit, *equilibrate, *seed, *method, *arithmetic, *cell, *clock, *events, *time;
 	char *contact_time, *shrinking, *search_step;
 	int *form, *search; /* enum touchstone_form, enum touchstone_search */
 	char **box, **gravity;
@@ -49,6 +54,7 @@ struct scene_words {
 	struct potential_words *potentials;
 	struct species_words *species;
 	struct body_words *bodies;
+	struct convection_words *convection;
 	struct start_words *start;
 	unsigned box_count, gravity_count, boundaries_count, walls_count, species_count, bodies_count, potentials_count,
 		virtual_walls_count;

@@ -265,6 +265,25 @@ static bool read_space(struct scene_file *file, char *error)
 							 error);
 }
 
+static bool read_convection(struct scene_file *file, char *error)
+{
+	const struct scene_words *words = file->source->words;
+	const struct convection_words *convection = words->convection;
+	struct scene_recipe *recipe = &file->recipe;
+	if (!value_number(file, "thermostat", words->thermostat, VALUE_NOT_NEGATIVE, &recipe->thermostat, error) ||
+		!value_number(file, "packing_limit", words->packing_limit, VALUE_NOT_NEGATIVE, &recipe->packing_limit, error))
+		return false;
+	if (!convection) return true;
+	recipe->convection = (struct scene_convection){true, 0.5, 0.5, {0, 1}};
+	double *walls = recipe->convection.walls;
+	return value_number(file, "convection.kick", convection->kick, VALUE_ANY, &recipe->convection.kick, error) &&
+		   value_number(file, "convection.neutral", convection->neutral, VALUE_ANY, &recipe->convection.neutral,
+						error) &&
+		   (!convection->walls ||
+			(value_number(file, "convection.walls[0]", convection->walls[0], VALUE_ANY, &walls[0], error) &&
+			 value_number(file, "convection.walls[1]", convection->walls[1], VALUE_ANY, &walls[1], error)));
+}
+
 /* What methods leave open. */
 static bool read_method(struct scene_file *file, char *error)
 {
@@ -296,6 +315,7 @@ static bool read_run(struct scene_file *file, char *error)
 
 bool scene_words_understand(struct scene_file *file, char error[STORE_ERROR])
 {
-	return read_space(file, error) && read_run(file, error) && read_method(file, error) && read_walls(file, error) &&
-		   read_species(file, error) && read_start(file, error) && interaction_words_understand(file, error);
+	return read_space(file, error) && read_convection(file, error) && read_run(file, error) &&
+		   read_method(file, error) && read_walls(file, error) && read_species(file, error) &&
+		   read_start(file, error) && interaction_words_understand(file, error);
 }

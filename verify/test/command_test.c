@@ -103,7 +103,7 @@ static void bad_usage_is_one_line(void **state)
 	static const struct {
 		const char *arguments, *words;
 	} wrong[] = {
-		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, replay, audit, campaign"},
+		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, fuzz, replay, audit, campaign"},
 		{"run", "no scene"},
 		{"run cradle column", "second scene"},
 		{"run nowhere.yaml", "nowhere.yaml: no such file"},
