@@ -66,11 +66,11 @@ static void print_one(const struct outcome *outcome)
 	outcome_row("verdict", "%s%s%s", outcome_verdict(outcome), status->reason[0] ? ": " : "", status->reason);
 	outcome_row("digest", "%016llx", (unsigned long long)status->digest);
 	print_fluxes(outcome);
-	print_heat(outcome);
 	if (outcome->resumed) outcome_row("resumed", "after %llu events", (unsigned long long)outcome->resumed_from);
 	if (outcome->checkpoints)
 		outcome_row("checkpoints", "%llu, in %.3g s", (unsigned long long)outcome->checkpoints,
 					outcome->checkpoint_seconds);
+	print_heat(outcome);
 	if (has_steps(status))
 		outcome_row("wall time", "%.3g s, %.4g events per second", outcome->wall_seconds,
 					(double)status->events / outcome->wall_seconds);

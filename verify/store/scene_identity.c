@@ -71,6 +71,18 @@ static uint64_t with_walls(uint64_t sum, const struct touchstone_scene *scene)
 	return sum;
 }
 
+static uint64_t with_heat(uint64_t sum, const struct touchstone_scene *scene)
+{
+	const struct touchstone_convection *convection = &scene->convection;
+	sum = with_numbers(sum, &scene->thermostat, 1);
+	sum = with_word(sum, convection->temperatures != NULL);
+	if (!convection->temperatures) return sum;
+	sum = with_numbers(sum, convection->temperatures, scene->particle_count);
+	sum = with_numbers(sum, convection->wall_temperatures, scene->wall_count);
+	sum = with_numbers(sum, &convection->kick, 1);
+	return with_numbers(sum, &convection->neutral, 1);
+}
+
 uint64_t scene_identity(const struct touchstone_scene *scene)
 {
 	uint64_t sum = with_word(0, (uint64_t)scene->dimensions);
@@ -86,5 +98,6 @@ uint64_t scene_identity(const struct touchstone_scene *scene)
 	sum = with_numbers(sum, &scene->contact_time, 1);
 	sum = with_numbers(sum, &scene->shrinking, 1);
 	sum = with_numbers(sum, &scene->search_step, 1);
+	sum = with_heat(sum, scene);
 	return with_word(sum, scene->grain);
 }
