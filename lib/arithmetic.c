@@ -82,6 +82,11 @@ void touchstone_state(const struct touchstone_engine *engine, uint32_t particle,
 	unit_of(engine)->state(engine, particle, position, velocity);
 }
 
+void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, void *context)
+{
+	unit_of(engine)->observe_tests(engine, tested, context);
+}
+
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 						  double contact[TOUCHSTONE_MOST_TERMS])
 {
@@ -143,9 +148,14 @@ static const char *const finder_names[] = {"stable",      "naive",    "guarded",
 										   "kahan",       "sterbenz", "textbook-epsilon"};
 enum { FINDERS = sizeof finder_names / sizeof *finder_names, POLICIES = 5 };
 
+/* Those that are a policy around the finders of another. */
+static const char *const policy_names[] = {"positional", "stretch", "nudge", "last-event"};
+enum { BORROWERS = sizeof policy_names / sizeof *policy_names };
+
 const char *touchstone_method_name(size_t number)
 {
-	return number < POLICIES ? finder_names[number] : NULL;
+	if (number < POLICIES) return finder_names[number];
+	return number < POLICIES + BORROWERS ? policy_names[number - POLICIES] : NULL;
 }
 
 const char *touchstone_finder_name(size_t number)

@@ -155,6 +155,17 @@ struct touchstone_observer {
 	void *context;
 };
 
+/* A pair that is tested because one of the two has just had an event: of those that have a potential with steps, all
+ * that are near one, and all whose state is not 0. What it is asked with is where the two are now. */
+struct touchstone_test {
+	uint32_t first, second; /* numbered as in the scene; first is the smaller */
+	int state;              /* tracked; or, by a method that reads states from positions, as it has just read it */
+	int within;             /* how many steps the separation is within, in the working arithmetic */
+	int step;               /* the nearest step: so many steps are outside of it */
+	double excess; /* |r|^2 / d^2 - 1 at that step's distance d, in the working arithmetic, rounded to double */
+};
+typedef void touchstone_tested(void *context, struct touchstone_engine *engine, const struct touchstone_test *test);
+
 struct touchstone_limits {
 	uint64_t events;          /* physical events to execute at most, in this call */
 	double time;              /* no event later than this is executed; INFINITY for no limit */
@@ -212,9 +223,13 @@ void touchstone_elastic(struct touchstone_engine *engine, bool elastic);
 void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3],
 					  double velocity[3]);
 
-/* During an observer's call: the exact relative position, first minus second particle, of the pair whose event it is.
- * terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact receives the
- * distance of the event (contact, or the step) in the same way, filled with zeros. */
+/* From here on `tested` is told, once for each event and pair, of the pairs that the search after it tests; NULL:
+ * nobody is, and that costs nothing. Events are told of first. */
+void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, void *context);
+
+/* During an observer's call: the exact relative position, first minus second particle, of the pair whose event or test
+ * it is. terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact receives the
+ * distance of the event (contact, or the step; of a test the nearest step) in the same way, filled with zeros. */
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 						  double contact[TOUCHSTONE_MOST_TERMS]);
 

@@ -28,7 +28,8 @@ static void engine_destroy(struct touchstone_engine *engine)
 	void *owned[] = {engine->body,           engine->place,          engine->itinerary, engine->index_of,
 					 engine->radius,         engine->mass,           engine->wall,      engine->candidate[0],
 					 engine->shadows.shadow, engine->shadows.radius, engine->potential, engine->potential_of,
-					 engine->virtual_wall,   engine->side,           engine->crossed,   engine->captured};
+					 engine->virtual_wall,   engine->side,           engine->crossed,   engine->captured,
+					 engine->last_met};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -193,6 +194,17 @@ static bool set_sieve(struct touchstone_engine *engine)
 	return shadows->shadow;
 }
 
+/* What the method's policy needs: a time in which a pair comes beyond rounding, as its file has it; and memory. */
+static bool set_policy(struct touchstone_engine *engine)
+{
+	double speed = typical_speed(engine);
+	engine->correction_time = from_double(speed > 0 ? ldexp(correction, -engine->bits) * engine->reach / speed : 0);
+	if (!(engine->method->policy & POLICY_LAST_EVENT)) return true;
+	engine->last_met = malloc(engine->count * sizeof *engine->last_met);
+	for (uint32_t i = 0; engine->last_met && i < engine->count; i++) engine->last_met[i] = nobody;
+	return engine->last_met;
+}
+
 static bool scene_makes_sense(const struct touchstone_scene *scene, char error[160])
 {
 	if (scene->dimensions < 1 || scene->dimensions > 3)
@@ -234,7 +246,8 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	engine->digest = first_digest;
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
 	bool made = set_species_and_walls(engine, scene) && set_potentials(engine, scene) &&
-				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine);
+				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine) &&
+				set_policy(engine);
 	if (made) {
 		engine->slack = slack_needed(engine, 0, typical_speed(engine));
 		made = (engine->count < 2 || lay_out_cells(engine)) && read_states(engine);

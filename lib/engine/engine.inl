@@ -51,9 +51,16 @@ extern const struct unit THIS_UNIT;
 #include "engine/motion.inl"
 
 #include "engine/potential.inl"
+
+#include "method/last_event.inl"
+#include "method/nudge.inl"
+#include "method/positional.inl"
+#include "method/stretch.inl"
+
 #include "engine/shadow.inl"
 
 #include "engine/search.inl"
+#include "engine/tested.inl"
 
 #include "engine/collide.inl"
 #include "engine/crossing.inl"

@@ -48,6 +48,12 @@ static void engine_recount(struct touchstone_engine *engine)
 	engine->digest = first_digest;
 }
 
+static void engine_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, void *context)
+{
+	engine->tested = tested;
+	engine->tested_context = context;
+}
+
 static void engine_elastic(struct touchstone_engine *engine, bool elastic)
 {
 	engine->elastic = elastic;
@@ -76,7 +82,11 @@ static int engine_separation(const struct touchstone_engine *engine, double term
 {
 	uint32_t i = engine->touching[0], j = engine->touching[1];
 	int most = 0, count[3] = {0};
-	for (int axis = 0; axis < engine->dimensions; axis++) {
+	for (int axis = 0; engine->tested_offset && axis < engine->dimensions; axis++) {
+		count[axis] = expand(engine->tested_offset[axis], terms[axis], TOUCHSTONE_MOST_TERMS);
+		if (count[axis] > most) most = count[axis];
+	}
+	for (int axis = 0; !engine->tested_offset && axis < engine->dimensions; axis++) {
 		double *to = terms[axis];
 		int32_t places = engine->place[i].index[axis] - engine->place[j].index[axis] -
 						 engine->touching_image[axis] * engine->places[axis];
@@ -217,6 +227,7 @@ const struct unit THIS_UNIT = {
 	.recount = engine_recount,
 	.elastic = engine_elastic,
 	.state = engine_state,
+	.observe_tests = engine_observe_tests,
 	.separation = engine_separation,
 	.pair_state = engine_pair_state,
 	.captured = engine_captured,

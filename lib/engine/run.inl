@@ -79,7 +79,10 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 		engine->itinerary[met[p]].entered = 0;
 		cast_shadow(engine, met[p]);
 	}
+	if (engine->last_met) remember_event(engine, met, particles);
+	engine->executing = true;
 	predict_all(engine, met, particles);
+	engine->executing = false;
 	for (int p = 0; p < particles; p++) schedule(engine, met[p]);
 }
 

@@ -136,6 +136,10 @@ struct touchstone_engine {
 	num outermost;          /* distance at which two particles first meet, where there is one species, */
 	uint8_t outermost_kind; /* and what then happens: enum touchstone_kind, or MEETS_NOTHING */
 
+	/* what methods keep that correct or remember: nothing under all others */
+	num correction_time; /* of `stretch` and `last-event` */
+	uint32_t *last_met;  /* per particle, the partner of its last event; NULL but for `last-event` */
+
 	/* virtual walls; side and crossed are NULL without */
 	size_t virtual_wall_count;
 	struct virtual_wall *virtual_wall;
@@ -168,7 +172,11 @@ struct touchstone_engine {
 	char reason[160];
 	uint32_t blamed[2];
 	const struct touchstone_observer *observer;
-	uint32_t touching[2]; /* the pair whose event it is while an observer is called */
+	bool executing;            /* whether the search at hand follows an event */
+	touchstone_tested *tested; /* told of the pairs it tests; NULL: nobody is */
+	void *tested_context;
+	const num *tested_offset; /* of the pair that is being told of: first minus second; NULL: none is */
+	uint32_t touching[2];     /* the pair whose event it is while an observer is called */
 	int touching_image[3];
 	num touching_distance;
 };

@@ -1,9 +1,9 @@
 #include "measure/impact.h"
 
-#include "num/twin.h"
 #include <math.h>
-#include <mpfr.h>
 #include <string.h>
+
+#include "measure/separation.h"
 
 void impact_begin(struct impact *impact, int bits)
 {
@@ -39,43 +39,8 @@ static double ulp_of(double contact, int bits)
 	return ldexp(1, exponent - bits);
 }
 
-/* (|r|^2 - contact^2) / (|r| + contact) in double-double: relative error below 2^-95 of contact as long as the terms
- * are not many times larger than contact, which the caller's margin of 2^-30 ulp covers for up to 53 bits. */
-static double excess_twin(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count, double contact)
-{
-	num squares = from_double(0);
-	for (int axis = 0; axis < 3; axis++) {
-		num r = from_double(0);
-		for (int term = 0; term < count; term++) r = add(r, from_double(terms[axis][term]));
-		squares = add(squares, mul(r, r));
-	}
-	num s = from_double(contact);
-	return to_double(divide(sub(squares, mul(s, s)), add(root(squares), s)));
-}
-
-/* The same, exact but for the last rounding: sums and squares of doubles of any size are held whole. */
-static double excess_mpfr(double terms[3][3 * TOUCHSTONE_MOST_TERMS], int count,
-						  const double contact[TOUCHSTONE_MOST_TERMS])
-{
-	mpfr_t sum, squares, part;
-	mpfr_inits2(2200, sum, part, (mpfr_ptr)0);
-	mpfr_init2(squares, 4500);
-	mpfr_set_zero(squares, 1);
-	for (int axis = 0; axis < 3; axis++) {
-		mpfr_set_zero(sum, 1);
-		for (int term = 0; term < count; term++) mpfr_add_d(sum, sum, terms[axis][term], MPFR_RNDN);
-		mpfr_set_prec(part, 4500);
-		mpfr_sqr(part, sum, MPFR_RNDN);
-		mpfr_add(squares, squares, part, MPFR_RNDN);
-	}
-	mpfr_sqrt(squares, squares, MPFR_RNDN);
-	for (int term = 0; term < TOUCHSTONE_MOST_TERMS; term++) mpfr_sub_d(squares, squares, contact[term], MPFR_RNDN);
-	double excess = mpfr_get_d(squares, MPFR_RNDN);
-	mpfr_clears(sum, part, squares, (mpfr_ptr)0);
-	return excess;
-}
-
-/* Whether an excess known to within 2^-30 ulp leaves its bar and its sign in no doubt. */
+/* Whether an excess known to within 2^-30 ulp, as that in double-double is for up to 53 bits, leaves its bar and its
+ * sign in no doubt. */
 static bool settled(double steps)
 {
 	double doubt = 0x1p-30, from_half = fabs(fabs(steps - rint(steps)) - 0.5);
@@ -94,11 +59,11 @@ void impact_see(void *context, struct touchstone_engine *engine, const struct to
 	double steps = (double)event->steps;
 	enter(&impact->measured, steps, steps < 0 ? steps / finer : steps);
 
-	double excess = impact->bits <= 53 ? excess_twin(terms, count, contact) / ulp : NAN;
+	double excess = impact->bits <= 53 ? separation_excess_twin(terms, count, contact) / ulp : NAN;
 	double exact_steps = excess < 0 ? excess * finer : excess;
 	if (impact->bits > 53 || !settled(exact_steps)) {
 		impact->forced++;
-		excess = excess_mpfr(terms, count, distance) / ulp;
+		excess = separation_excess_exact(terms, count, distance) / ulp;
 		exact_steps = excess < 0 ? excess * finer : excess;
 	}
 	enter(&impact->exact, rint(exact_steps), excess);
