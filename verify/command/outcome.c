@@ -57,10 +57,27 @@ static bool equilibrate(struct outcome *outcome, const struct run_plan *plan, st
 	return false;
 }
 
+/* Observes for all that is measured. */
+static void see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
+{
+	const struct outcome *outcome = context;
+	if (outcome->impact) impact_see(outcome->impact, engine, event);
+	if (!outcome->states) return;
+	inconsistency_see(&outcome->states->inconsistency, engine, event);
+	misreading_see(&outcome->states->misreading, engine, event);
+}
+
+static void see_test(void *context, struct touchstone_engine *engine, const struct touchstone_test *test)
+{
+	struct states_outcome *states = context;
+	inconsistency_test(&states->inconsistency, engine, test);
+	misreading_test(&states->misreading, engine, test);
+}
+
 static void measure(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 					struct simulation_progress *progress, uint64_t before)
 {
-	struct touchstone_observer observer = {impact_see, outcome->impact};
+	struct touchstone_observer observer = {see, outcome};
 	struct touchstone_limits limits = plan->limits;
 	touchstone_recount(simulation->engine);
 	touchstone_status(simulation->engine, &outcome->status);
@@ -68,9 +85,13 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	outcome->time_begun = outcome->status.time;
 	limits.time += outcome->time_begun;
 	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
+	if (outcome->states) {
+		misreading_begin(&outcome->states->misreading, &simulation->scene, simulation->engine);
+		touchstone_observe_tests(simulation->engine, see_test, outcome->states);
+	}
+	bool observed = outcome->impact || outcome->states;
 	double clock = progress_clock();
-	outcome->interrupted =
-		!simulation_advance(simulation, &limits, outcome->impact ? &observer : NULL, progress, before);
+	outcome->interrupted = !simulation_advance(simulation, &limits, observed ? &observer : NULL, progress, before);
 	outcome->wall_seconds = progress_clock() - clock;
 	touchstone_status(simulation->engine, &outcome->status);
 	if (outcome->interrupted)
@@ -102,18 +123,25 @@ static bool write_particles(const struct simulation *simulation, const char *pat
 	return written;
 }
 
+/* Makes room for what is measured; false without. */
+static bool begin_measures(struct outcome *outcome, const struct run_plan *plan)
+{
+	int bits = arithmetic_bits(plan->file->arithmetic);
+	if (plan->impact && !(outcome->impact = malloc(sizeof *outcome->impact))) return false;
+	if (plan->impact) impact_begin(outcome->impact, bits);
+	if (!plan->states) return true;
+	outcome->states = calloc(1, sizeof *outcome->states);
+	return outcome->states && inconsistency_begin(&outcome->states->inconsistency, bits, outcome->particles);
+}
+
 /* From a start state to an outcome. */
 static void find(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 				 struct simulation_progress *progress)
 {
-	if (plan->impact) {
-		outcome->impact = malloc(sizeof *outcome->impact);
-		outcome->failed = !outcome->impact;
-		if (outcome->failed) {
-			snprintf(outcome->error, STORE_ERROR, "out of memory");
-			return;
-		}
-		impact_begin(outcome->impact, arithmetic_bits(plan->file->arithmetic));
+	outcome->failed = !begin_measures(outcome, plan);
+	if (outcome->failed) {
+		snprintf(outcome->error, STORE_ERROR, "out of memory");
+		return;
 	}
 	size_t walls = simulation->scene.virtual_wall_count;
 	outcome->fluxes = calloc(walls + 1, sizeof *outcome->fluxes);
@@ -142,6 +170,11 @@ void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t
 
 void outcome_free(struct outcome *outcome)
 {
+	if (outcome->states) {
+		inconsistency_end(&outcome->states->inconsistency);
+		misreading_end(&outcome->states->misreading);
+	}
+	free(outcome->states);
 	free(outcome->impact);
 	free(outcome->fluxes);
 }

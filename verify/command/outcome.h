@@ -34,6 +34,10 @@
  *	                       fraction_below_interval (95 %), mean_ulp, deviation_ulp, least_ulp, most_ulp (ulp: the step
  *	                       from the contact distance upwards), and bars, counts per representable number, of
  *	                       which first_bar is how many numbers from contact the first stands
+ *	states                 when measured: tests (of pairs near a step); for each kind of inconsistency of
+ *	                       measure/inconsistency.h, by its name, count and per_event, [rate, 95 % interval]; repeats,
+ *	                       misses and energy as in measure/misreading.h; repeated, missed, stuck: the first of each,
+ *	                       null where there was none: event, time, kind, pair, third (null: none), was, read
  *
  * Numbers that do not exist, such as the rate of no collisions, are null. */
 #ifndef VERIFY_OUTCOME_H
@@ -44,6 +48,8 @@
 #include "command/simulation.h"
 #include "measure/conservation.h"
 #include "measure/impact.h"
+#include "measure/inconsistency.h"
+#include "measure/misreading.h"
 
 /* What is to be run, once or several times. */
 struct run_plan {
@@ -52,8 +58,14 @@ struct run_plan {
 	struct touchstone_limits limits; /* after equilibration */
 	const char *const *settings;
 	size_t setting_count;
-	bool conservation, impact; /* measured? */
-	const char *xyz;           /* file for the final configuration, or NULL */
+	bool conservation, impact, states; /* measured? */
+	const char *xyz;                   /* file for the final configuration, or NULL */
+};
+
+/* What was found out about the states of pairs. */
+struct states_outcome {
+	struct inconsistency inconsistency;
+	struct misreading misreading;
 };
 
 /* What became of one run. */
@@ -66,7 +78,8 @@ struct outcome {
 	double wall_seconds; /* without equilibration */
 	bool conservation;   /* measured, at begin and end: */
 	struct conservation conserved[2];
-	struct impact *impact; /* NULL when not measured; freed by outcome_free */
+	struct impact *impact;         /* NULL when not measured; freed by outcome_free */
+	struct states_outcome *states; /* NULL when not measured; freed by outcome_free */
 	size_t virtual_wall_count;
 	struct touchstone_flux (*fluxes)[2]; /* through each; freed by outcome_free */
 	bool failed;                         /* there was no run */

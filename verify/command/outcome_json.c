@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "command/command.h"
+#include "command/outcome_states.h"
 #include "measure/interval.h"
 #include "provenance.h"
 
@@ -126,6 +127,7 @@ static void set_run(json_t *json, const struct outcome *outcome)
 	if (outcome->virtual_wall_count) json_object_set_new(json, "fluxes", fluxes_json(outcome));
 	if (outcome->conservation) json_object_set_new(json, "conservation", conservation_json(outcome));
 	if (outcome->impact) json_object_set_new(json, "impact", impact_json(outcome->impact));
+	if (outcome->states) json_object_set_new(json, "states", states_json(outcome->states));
 }
 
 static json_t *together_json(const struct outcome *outcomes, size_t count)

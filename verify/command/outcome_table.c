@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "command/outcome_states.h"
 #include "measure/interval.h"
 
 /* One line: what, and the rest as printf has it. */
@@ -124,8 +125,10 @@ static void print_measures(const struct run_plan *plan, const struct outcome *ou
 	}
 	free(impact);
 	for (size_t o = 0; o < count; o++) {
-		if (outcomes[o].conservation && count > 1) row("seed", "%llu", (unsigned long long)outcomes[o].seed);
+		if ((outcomes[o].conservation || outcomes[o].states) && count > 1)
+			row("seed", "%llu", (unsigned long long)outcomes[o].seed);
 		if (outcomes[o].conservation) print_conservation(plan, &outcomes[o]);
+		if (outcomes[o].states) states_print(outcomes[o].states);
 	}
 }
 

@@ -32,7 +32,9 @@ static const struct argp_option options[] = {
 	 "Override any key of the scene, such as density=0.9; may be repeated, the last one counts", 1},
 	{"explain", EXPLAIN, 0, 0, "First say what is modelled and what is left out. With --events 0, say only that", 2},
 	{"measure", MEASURE, "LIST", 0,
-	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum)", 2},
+	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum), states (pairs whose "
+	 "positions contradict their tracked state, and whether the method is misled by them)",
+	 2},
 	{"json", JSON, "FILE", 0, "Write what came of it as JSON; - for standard output, instead of the table", 2},
 	{"xyz", XYZ, "FILE", 0, "Write the particles at the end as extended XYZ", 2},
 	{"runs", RUNS, "R", 0, "Run R times, with the seeds S, S+1, ... (1)", 3},
@@ -42,7 +44,7 @@ static const struct argp_option options[] = {
 
 struct wish {
 	const char *scene, *json, *xyz, *folder;
-	bool explain, impact, conservation;
+	bool explain, impact, conservation, states;
 	uint64_t runs, threads;
 	char **settings; /* KEY=VALUE, each from malloc */
 	size_t setting_count;
@@ -58,7 +60,7 @@ static void add_setting(struct wish *wish, const char *key, const char *value)
 
 static void choose_measures(struct wish *wish, char *list)
 {
-	char *const names[] = {"impact", "conservation", NULL};
+	char *const names[] = {"impact", "conservation", "states", NULL};
 	while (*list) {
 		char *word = list, *value;
 		switch (getsubopt(&list, names, &value)) {
@@ -68,8 +70,11 @@ static void choose_measures(struct wish *wish, char *list)
 		case 1:
 			wish->conservation = true;
 			break;
+		case 2:
+			wish->states = true;
+			break;
 		default:
-			refuse_option("measure", word, "impact, conservation, or both with a comma");
+			refuse_option("measure", word, "impact, conservation, states, or several with commas");
 		}
 	}
 }
@@ -203,6 +208,7 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		.setting_count = wish->setting_count,
 		.impact = wish->impact,
 		.conservation = wish->conservation,
+		.states = wish->states,
 		.xyz = wish->xyz,
 	};
 	json_t *explained = NULL;

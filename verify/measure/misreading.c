@@ -1,39 +1,41 @@
 #include "measure/misreading.h"
 
 #include <search.h>
+#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
+
+static const uint32_t nobody = UINT32_MAX;
 
 /* A pair in the ledger, numbered as in the scene, the smaller number first. */
-struct entry {
+struct ledger_pair {
 	uint32_t first, second;
 	int state;
 };
 
 static int compare(const void *a, const void *b)
 {
-	const struct entry *x = a, *y = b;
+	const struct ledger_pair *x = a, *y = b;
 	if (x->first != y->first) return x->first < y->first ? -1 : 1;
 	return (x->second > y->second) - (x->second < y->second);
 }
 
 static int look_up(const struct misreading *misreading, uint32_t first, uint32_t second)
 {
-	struct entry *const *found = tfind(&(struct entry){first, second, 0}, &misreading->ledger, compare);
+	struct ledger_pair *const *found = tfind(&(struct ledger_pair){first, second, 0}, &misreading->ledger, compare);
 	return found ? (*found)->state : 0;
 }
 
 static void write_down(struct misreading *misreading, uint32_t first, uint32_t second, int state)
 {
-	struct entry key = {first, second, state}, **found = tfind(&key, &misreading->ledger, compare);
+	struct ledger_pair key = {first, second, state}, **found = tfind(&key, &misreading->ledger, compare);
 	if (found && state) {
 		(*found)->state = state;
 	} else if (found) {
-		struct entry *entry = *found;
+		struct ledger_pair *entry = *found;
 		tdelete(entry, &misreading->ledger, compare);
 		free(entry);
 	} else if (state) {
-		struct entry *entry = malloc(sizeof *entry);
+		struct ledger_pair *entry = malloc(sizeof *entry);
 		if (entry) *entry = key;
 		if (entry && tsearch(entry, &misreading->ledger, compare)) return;
 		free(entry);
@@ -62,7 +64,7 @@ void misreading_begin(struct misreading *misreading, const struct touchstone_sce
 void misreading_end(struct misreading *misreading)
 {
 	while (misreading->ledger) {
-		struct entry *entry = *(struct entry **)misreading->ledger;
+		struct ledger_pair *entry = *(struct ledger_pair **)misreading->ledger;
 		tdelete(entry, &misreading->ledger, compare);
 		free(entry);
 	}
@@ -88,6 +90,21 @@ static bool alike(const struct touchstone_event *a, const struct touchstone_even
 	return a->kind == b->kind && a->first == b->first && a->second == b->second && a->time >= b->time;
 }
 
+/* Enters a misreading; `third` is whom one of the pair has met, or nobody where the two have met each other. */
+static void misread(struct misreading *misreading, uint32_t first, uint32_t second, uint32_t third, int was, int read)
+{
+	const struct touchstone_event *event = &misreading->last;
+	bool own = third == nobody;
+	struct misread_pair *earliest = own ? &misreading->repeated : &misreading->missed;
+	if (!earliest->event)
+		*earliest =
+			(struct misread_pair){misreading->events, event->time, event->kind, first, second, third, was, read};
+	misreading->repeats += own;
+	misreading->misses += !own;
+	misreading->energy += energy_in(misreading, first, second, read) - energy_in(misreading, first, second, was);
+	write_down(misreading, first, second, read);
+}
+
 void misreading_see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
 {
 	(void)engine;
@@ -102,6 +119,7 @@ void misreading_see(void *context, struct touchstone_engine *engine, const struc
 												  .kind = event->kind,
 												  .first = event->first,
 												  .second = event->second,
+												  .third = nobody,
 												  .was = event->before,
 												  .read = event->before};
 	if (event->kind != TOUCHSTONE_WALL) write_down(misreading, event->first, event->second, event->after);
@@ -114,16 +132,32 @@ void misreading_test(void *context, struct touchstone_engine *engine, const stru
 	const struct touchstone_event *event = &misreading->last;
 	int was = look_up(misreading, test->first, test->second);
 	if (was == test->state || misreading->exhausted) return;
-	bool own = test->first == event->first && test->second == event->second && event->kind != TOUCHSTONE_WALL;
-	struct misread_pair *first = own ? &misreading->repeated : &misreading->missed;
-	if (!first->event) {
-		uint32_t met = test->first == event->first || test->second == event->first ? event->second : event->first;
-		*first = (struct misread_pair){misreading->events, event->time,   event->kind, test->first,
-									   test->second,       own ? 0 : met, was,         test->state};
-	}
-	misreading->repeats += own;
-	misreading->misses += !own;
-	misreading->energy += energy_in(misreading, test->first, test->second, test->state) -
-						  energy_in(misreading, test->first, test->second, was);
-	write_down(misreading, test->first, test->second, test->state);
+	bool pair = event->kind != TOUCHSTONE_WALL;
+	bool own = pair && test->first == event->first && test->second == event->second;
+	bool one_met = test->first == event->first || test->second == event->first;
+	uint32_t third = own ? nobody : one_met && pair ? event->second : event->first;
+	misread(misreading, test->first, test->second, third, was, test->state);
+}
+
+const char *misreading_event(enum touchstone_kind kind)
+{
+	static const char *const kinds[] = {"contact", "wall contact", "capture", "release", "bounce", "crossing"};
+	return kinds[kind];
+}
+
+const char *misreading_tell(const struct misread_pair *pair, char text[200])
+{
+	char after[80] = "right after it";
+	if (pair->third != nobody) snprintf(after, sizeof after, "when one of them met %u", pair->third);
+	if (!pair->event)
+		snprintf(text, 200, "none");
+	else if (pair->was == pair->read)
+		snprintf(text, 200, "event %llu: %s of %u and %u for the %dth time in a row, at t = %.17g",
+				 (unsigned long long)pair->event, misreading_event(pair->kind), pair->first, pair->second,
+				 MISREADING_STUCK, pair->time);
+	else
+		snprintf(text, 200, "event %llu: %u and %u, within %d step%s, read as within %d %s, at t = %.17g",
+				 (unsigned long long)pair->event, pair->first, pair->second, pair->was, pair->was == 1 ? "" : "s",
+				 pair->read, after, pair->time);
+	return text;
 }

@@ -22,7 +22,7 @@ struct misread_pair {
 	uint64_t event; /* the event, counted from 1 where watching began, after which it was read; 0: there was none */
 	double time;
 	enum touchstone_kind kind;     /* of that event */
-	uint32_t first, second, third; /* the pair; whom one of them met (missed only) */
+	uint32_t first, second, third; /* the pair; whom one of them met (missed only; else UINT32_MAX) */
 	int was, read;                 /* states: as its events left it, and as it was read */
 };
 
@@ -45,5 +45,9 @@ void misreading_end(struct misreading *misreading);
 /* For touchstone_run and touchstone_observe_tests, with the watcher as the context. */
 void misreading_see(void *misreading, struct touchstone_engine *engine, const struct touchstone_event *event);
 void misreading_test(void *misreading, struct touchstone_engine *engine, const struct touchstone_test *test);
+
+/* One of its firsts in words, "none" where there was none; and a word for a kind of event. */
+const char *misreading_tell(const struct misread_pair *pair, char text[200]);
+const char *misreading_event(enum touchstone_kind kind);
 
 #endif
