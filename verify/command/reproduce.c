@@ -14,10 +14,11 @@
 const struct figure_entry figures[] = {
 	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide"},
 	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts"},
+	{"states", "2016, section 5: wells and shoulders, what positions say of them, and methods that believe it"},
 	{NULL, NULL},
 };
-static struct result *(*const makers[])(const struct figure_setup *, char error[512]) = {figure_impact,
-																						 figure_collapse};
+static struct result *(*const makers[])(const struct figure_setup *, char error[512]) = {figure_impact, figure_collapse,
+																						 figure_states};
 enum { FIGURES = sizeof makers / sizeof *makers };
 
 struct arguments {
@@ -30,7 +31,7 @@ struct arguments {
 
 static const struct argp_option options[] = {
 	{"quick", 'q', 0, 0, "sizes that take minutes (the default)", 0},
-	{"full", 'f', 0, 0, "the papers' own sizes: 10^9 collisions per histogram, 10^6 plates", 0},
+	{"full", 'f', 0, 0, "the papers' own sizes: 10^9 collisions per histogram, 10^6 plates, 1.6 10^8 events", 0},
 	{"seed", 'S', "S", 0, "of the start states and plates (1)", 0},
 	{"threads", 't', "K", 0, "runs side by side (as many as there are cores); the numbers do not depend on it", 0},
 	{"results", 'r', "DIR", 0, "where results are stored (build/results)", 0},
@@ -42,7 +43,7 @@ static void want(struct arguments *arguments, const char *name)
 	bool found = false;
 	for (int f = 0; f < FIGURES; f++)
 		if (strcmp(name, "all") == 0 || strcmp(name, figures[f].name) == 0) arguments->wanted[f] = found = true;
-	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, fig7, all", name);
+	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, fig7, states, all", name);
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -117,7 +118,8 @@ int command_reproduce(int argc, char **argv)
 		.parser = parse,
 		.args_doc = "FIGURE... | all",
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
-			   "Figures: fig3 (separations at impact), fig7 (the bouncing ball).\n"
+			   "Figures: fig3 (separations at impact), fig7 (the bouncing ball), states (the 2016 paper's wells and "
+			   "shoulders).\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
 			   "incomplete.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",

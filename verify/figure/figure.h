@@ -18,5 +18,6 @@ struct figure_setup {
 /* Each returns a finished result that the caller frees, or NULL with one line in `error`. */
 struct result *figure_impact(const struct figure_setup *setup, char error[512]);   /* 2014, fig. 3 */
 struct result *figure_collapse(const struct figure_setup *setup, char error[512]); /* 2014, section 5 and fig. 7 */
+struct result *figure_states(const struct figure_setup *setup, char error[512]);   /* 2016, section 5 */
 
 #endif
