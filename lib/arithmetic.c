@@ -82,9 +82,9 @@ void touchstone_state(const struct touchstone_engine *engine, uint32_t particle,
 	unit_of(engine)->state(engine, particle, position, velocity);
 }
 
-void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, void *context)
+void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach, void *context)
 {
-	unit_of(engine)->observe_tests(engine, tested, context);
+	unit_of(engine)->observe_tests(engine, tested, reach, context);
 }
 
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],

@@ -155,8 +155,8 @@ struct touchstone_observer {
 	void *context;
 };
 
-/* A pair that is tested because one of the two has just had an event: of those that have a potential with steps, all
- * that are near one, and all whose state is not 0. What it is asked with is where the two are now. */
+/* A pair that has a potential with steps and is tested because one of the two has just had an event. What it is asked
+ * with is where the two are now. */
 struct touchstone_test {
 	uint32_t first, second; /* numbered as in the scene; first is the smaller */
 	int state;              /* tracked; or, by a method that reads states from positions, as it has just read it */
@@ -223,9 +223,10 @@ void touchstone_elastic(struct touchstone_engine *engine, bool elastic);
 void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3],
 					  double velocity[3]);
 
-/* From here on `tested` is told, once for each event and pair, of the pairs that the search after it tests; NULL:
- * nobody is, and that costs nothing. Events are told of first. */
-void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, void *context);
+/* From here on `tested` is told, once for each event and pair (or image of it), of the pairs that the search after it
+ * tests: those whose state is not 0, and those no farther apart than `reach` times their outermost step (INFINITY: all
+ * that are tested). NULL: nobody is told, and that costs nothing. Events are told of first. */
+void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach, void *context);
 
 /* During an observer's call: the exact relative position, first minus second particle, of the pair whose event or test
  * it is. terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact receives the

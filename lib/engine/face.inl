@@ -48,9 +48,11 @@ static void engine_recount(struct touchstone_engine *engine)
 	engine->digest = first_digest;
 }
 
-static void engine_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, void *context)
+static void engine_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach,
+								 void *context)
 {
 	engine->tested = tested;
+	engine->tested_reach = reach;
 	engine->tested_context = context;
 }
 

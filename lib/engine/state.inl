@@ -175,6 +175,7 @@ struct touchstone_engine {
 	bool executing;            /* whether the search at hand follows an event */
 	touchstone_tested *tested; /* told of the pairs it tests; NULL: nobody is */
 	void *tested_context;
+	double tested_reach;      /* times the outermost step */
 	const num *tested_offset; /* of the pair that is being told of: first minus second; NULL: none is */
 	uint32_t touching[2];     /* the pair whose event it is while an observer is called */
 	int touching_image[3];

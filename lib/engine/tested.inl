@@ -1,14 +1,15 @@
-/* What an observer of tests is told: the pairs that a search after an event asks about, where their state could be in
- * doubt. The sieve does not come into it, since it leaves out pairs that part, whatever state they are in. */
+/* What an observer of tests is told: the pairs that a search after an event asks about. The sieve does not come into
+ * it, since it leaves out pairs that part, whatever state they are in. */
 
-/* Whether an entry may be within a little more than the largest distance at which anything happens. Particle i's own
- * shadow is as of now. */
+/* Whether an entry may be within the observer's reach, by its shadow, which is off by far less than the margin.
+ * Particle i's own shadow is as of now. */
 static bool may_be_near(const struct touchstone_engine *engine, uint32_t i, uint32_t entry)
 {
 	const struct shadows *shadows = &engine->shadows;
 	if (!shadows->shadow) return true;
 	const struct shadow *mine = &shadows->shadow[i], *other = &shadows->shadow[entry_particle(entry)];
-	float flight = mine->time - other->time, square = 0, near = (float)(1.05 * engine->reach * shadows->per_length);
+	float flight = mine->time - other->time, square = 0,
+		  near = (float)(1.05 * engine->tested_reach * engine->reach * shadows->per_length);
 	near += 0x1p-18f * shadows->sieve.boxes;
 	for (int axis = 0; axis < 3; axis++) {
 		float shift = (float)entry_image(entry, axis) * shadows->sieve.box[axis];
@@ -18,10 +19,9 @@ static bool may_be_near(const struct touchstone_engine *engine, uint32_t i, uint
 	return !(square > near * near);
 }
 
-/* Tells of one pair, unless it is in the outermost state and clearly so. */
+/* Tells of one pair, unless it is in the outermost state and beyond the observer's reach. */
 static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
 {
-	static const double clear = 0.05; /* beyond the outermost step, in its squared distance */
 	uint32_t j = entry_particle(entry), nearest = 0;
 	const struct potential *potential = potential_between(engine, i, j);
 	if (!potential || !potential->step_count) return;
@@ -36,7 +36,8 @@ static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t ent
 	}
 	uint32_t state = pairs_get(&engine->pairs, i, entry), first = engine->itinerary[i].id;
 	uint32_t second = engine->itinerary[j].id;
-	if (state == 0 && nearest == 0 && excess > clear) return;
+	double farthest = to_double(potential->step[0].distance) * engine->tested_reach;
+	if (state == 0 && to_double(square) > farthest * farthest) return;
 	for (int axis = 0; first > second && axis < engine->dimensions; axis++) balls.r[axis] = negated(balls.r[axis]);
 	struct touchstone_test test = {
 		.first = first < second ? first : second,
@@ -60,6 +61,7 @@ static void tell_tests(struct touchstone_engine *engine, const uint32_t *particl
 		for (size_t k = 0; k < candidates[p]; k++) {
 			uint32_t entry = list[p][k];
 			if (p == 1 && entry_particle(entry) == particle[0]) continue;
-			if (may_be_near(engine, particle[p], entry)) tell_test(engine, particle[p], entry);
+			if (may_be_near(engine, particle[p], entry) || pairs_get(&engine->pairs, particle[p], entry))
+				tell_test(engine, particle[p], entry);
 		}
 }

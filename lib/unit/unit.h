@@ -17,7 +17,7 @@ struct unit {
 	void (*recount)(struct touchstone_engine *);
 	void (*elastic)(struct touchstone_engine *, bool);
 	void (*state)(const struct touchstone_engine *, uint32_t particle, double position[3], double velocity[3]);
-	void (*observe_tests)(struct touchstone_engine *, touchstone_tested *, void *context);
+	void (*observe_tests)(struct touchstone_engine *, touchstone_tested *, double reach, void *context);
 	int (*separation)(const struct touchstone_engine *, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 					  double contact[TOUCHSTONE_MOST_TERMS]);
 	int (*pair_state)(const struct touchstone_engine *, uint32_t first, uint32_t second);

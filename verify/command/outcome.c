@@ -87,7 +87,7 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
 	if (outcome->states) {
 		misreading_begin(&outcome->states->misreading, &simulation->scene, simulation->engine);
-		touchstone_observe_tests(simulation->engine, see_test, outcome->states);
+		touchstone_observe_tests(simulation->engine, see_test, inconsistency_reach, outcome->states);
 	}
 	bool observed = outcome->impact || outcome->states;
 	double clock = progress_clock();

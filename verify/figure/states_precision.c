@@ -45,12 +45,10 @@ static uint64_t hits(const struct curve *curve, const struct inconsistency *inco
 	return inconsistency->count[curve->kind] + (curve->with != curve->kind ? inconsistency->count[curve->with] : 0);
 }
 
-/* One curve of one scene, and the line through its logarithms; returns how many points it has. */
-static size_t draw(struct result_figure figure, const struct curve *curve, int scene,
-				   const struct step_gas_outcome *outcomes, struct line_fit *fit)
+/* One curve of one scene. */
+static void draw(struct result_figure figure, const struct curve *curve, int scene,
+				 const struct step_gas_outcome *outcomes)
 {
-	double x[RUNGS], y[RUNGS];
-	size_t points = 0;
 	char label[80];
 	snprintf(label, sizeof label, "%s, %s", scene ? "shoulder" : "well", curve->label);
 	struct figure_series series = figure_series(figure, label, SERIES_POINTS);
@@ -59,12 +57,37 @@ static size_t draw(struct result_figure figure, const struct curve *curve, int s
 		uint64_t count = hits(curve, inconsistency);
 		if (!count) continue;
 		struct interval interval = interval_of_rate(count, (double)inconsistency->events);
-		double rate = (double)count / (double)inconsistency->events;
-		x[points] = ladder[r].bits, y[points++] = log2(rate);
-		series_row(series, (double[]){ladder[r].bits, rate, interval.low, interval.high});
+		series_row(series, (double[]){ladder[r].bits, (double)count / (double)inconsistency->events, interval.low,
+									  interval.high});
 	}
-	if (points > 2) *fit = fit_line(x, y, points);
-	return points;
+}
+
+/* The rare ones as a multiple of the roundoff: of all precisions together, also where none was seen. */
+static void extrapolate(struct result *result, struct result_figure figure, int scene,
+						const struct step_gas_outcome *outcomes)
+{
+	static const double reported[] = {1.4e-7, 2.6e-7};
+	double exposure = 0;
+	uint64_t count = 0;
+	for (int r = 0; r < RUNGS; r++) {
+		const struct inconsistency *inconsistency = &outcomes[SCENES * r + scene].inconsistency;
+		count += hits(&curves[CURVES - 1], inconsistency);
+		exposure += ldexp((double)inconsistency->events, -ladder[r].bits);
+	}
+	if (!count) return;
+	double factor = (double)count / exposure, paper = reported[scene];
+	struct interval interval = interval_of_rate(count, exposure);
+	struct figure_series series = figure_series(
+		figure, scene ? "shoulder, proportional to the roundoff" : "well, proportional to the roundoff", SERIES_LINE);
+	for (int bits = ladder[0].bits; bits <= 54; bits += 10)
+		series_row(series, (double[]){bits, ldexp(factor, -bits), NAN, NAN});
+	result_note(
+		result,
+		"%s: if they are proportional to the roundoff, pairs made inconsistent by another's event come to %.3g "
+		"times 2^-bits per event (95 %%: %.3g to %.3g; %llu seen): %.2g in binary64. The paper's %.2g is what they "
+		"come to with %.1f significant bits (%.1f to %.1f).",
+		scene ? "Shoulder" : "Well", factor, interval.low, interval.high, (unsigned long long)count, ldexp(factor, -53),
+		paper, log2(factor / paper), log2(interval.low / paper), log2(interval.high / paper));
 }
 
 static void add_table(struct result *result, const struct step_gas_outcome *outcomes)
@@ -104,26 +127,16 @@ void states_precision_tell(struct result *result, const struct step_gas *gases, 
 			.title = "Inconsistencies per event, by precision",
 			.caption = "A pair at its step by its own event is on the wrong side of it nearly every other time, in any "
 					   "arithmetic. Any other pair is so by the rounding of its flight alone, and that falls with "
-					   "every bit; where no point stands, none was seen. Bars: 95 %.",
-			.alternative = "Two groups of level points between a tenth and a half, and one that falls by half a decade "
-						   "per two bits or so until nothing is seen.",
+					   "every bit; where no point stands, none was seen. Bars: 95 %. Lines: proportional to the "
+					   "roundoff, fitted to all precisions together.",
+			.alternative = "Points level between a tenth and a half, and below them two lines that fall by half with "
+						   "every bit.",
 			.x = {"significand bits", 0, {0, 0}},
 			.y = {"per event", 10, {0, 0}},
 			.columns = columns,
 		});
 	for (int c = 0; c < CURVES; c++)
-		for (int g = 0; g < SCENES; g++) {
-			struct line_fit fit = {0};
-			size_t points = draw(figure, &curves[c], g, outcomes, &fit);
-			if (c < CURVES - 1 || points < 3) continue;
-			static const double reported[] = {1.4e-7, 2.6e-7};
-			result_note(
-				result,
-				"%s: pairs made inconsistent by another's event are 2^(%.2f %+.3f bits) per event (standard "
-				"error of the slope %.2g, %zu precisions): %.2g in binary64 if the line goes on, and %.1f bits for "
-				"the %.2g that the paper reports.",
-				g ? "Shoulder" : "Well", fit.intercept, fit.slope, fit.slope_error, points,
-				exp2(fit.intercept + 53 * fit.slope), (log2(reported[g]) - fit.intercept) / fit.slope, reported[g]);
-		}
+		for (int g = 0; g < SCENES; g++) draw(figure, &curves[c], g, outcomes);
+	for (int g = 0; g < SCENES; g++) extrapolate(result, figure, g, outcomes);
 	add_table(result, outcomes);
 }

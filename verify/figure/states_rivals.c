@@ -21,9 +21,7 @@ size_t states_rivals_gases(bool full, struct step_gas *gases)
 												   .form = TOUCHSTONE_ABSOLUTE,
 												   .arithmetic = arithmetics[a],
 												   .method = methods[m],
-												   .events = full && a < 3 ? 2000000
-															 : a < 3       ? 100000
-																		   : 30000,
+												   .events = (full ? 1000000 : 60000) / (a < 3 ? 1 : 15),
 												   .watched = true};
 	return count;
 }
@@ -56,6 +54,9 @@ static void name_it(struct result_table table, const struct step_gas_outcome *ou
 		used += (size_t)snprintf(said + used, sizeof said - used, "%sstuck on %ss from event %llu on", used ? "; " : "",
 								 misreading_event(misreading->stuck.kind),
 								 (unsigned long long)misreading->stuck.event - MISREADING_STUCK + 1);
+	else if (outcome->end.verdict == TOUCHSTONE_COLLAPSED)
+		used += (size_t)snprintf(said + used, sizeof said - used, "%stime stands still before event %llu",
+								 used ? "; " : "", (unsigned long long)misreading->events);
 	if (misreading->energy != 0)
 		snprintf(said + used, sizeof said - used, "%senergy %s by %g kT", used ? "; " : "",
 				 misreading->energy > 0 ? "rises" : "falls", fabs(misreading->energy));

@@ -73,10 +73,10 @@ static void measure(const struct step_gas *gas, struct step_campaign *campaign, 
 	struct touchstone_observer observer = {inconsistency_see, &outcome->inconsistency};
 	if (gas->watched) {
 		misreading_begin(&outcome->misreading, scene, engine);
-		touchstone_observe_tests(engine, misreading_test, &outcome->misreading);
+		touchstone_observe_tests(engine, misreading_test, inconsistency_reach, &outcome->misreading);
 		observer = (struct touchstone_observer){misreading_see, &outcome->misreading};
 	} else {
-		touchstone_observe_tests(engine, inconsistency_test, &outcome->inconsistency);
+		touchstone_observe_tests(engine, inconsistency_test, inconsistency_reach, &outcome->inconsistency);
 	}
 	struct conservation begin = conservation_of(scene, engine);
 	double clock = clock_now();

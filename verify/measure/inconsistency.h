@@ -4,14 +4,17 @@
  *
  *	struct inconsistency inconsistency;
  *	if (!inconsistency_begin(&inconsistency, bits, particles)) ...
- *	touchstone_observe_tests(engine, inconsistency_test, &inconsistency);
+ *	touchstone_observe_tests(engine, inconsistency_test, inconsistency_reach, &inconsistency);
  *	touchstone_run(engine, &limits, &(struct touchstone_observer){inconsistency_see, &inconsistency});
- *	touchstone_observe_tests(engine, NULL, NULL);
+ *	touchstone_observe_tests(engine, NULL, 0, NULL);
  *	inconsistency_end(&inconsistency); */
 #ifndef VERIFY_INCONSISTENCY_H
 #define VERIFY_INCONSISTENCY_H
 
 #include "touchstone.h"
+
+/* How far beyond its outermost step a pair is of interest: no rounding that a run survives reaches so far. */
+static const double inconsistency_reach = 1.02;
 
 enum inconsistency_kind {
 	INCONSISTENT_EXECUTED, /* the pair whose event it is, when it is executed */
