@@ -183,8 +183,8 @@ static void names_and_refusals(void **state)
 		assert_true(touchstone_drop("binary64", touchstone_method_name(m), NULL, 0, NULL, NULL, NULL, error));
 	}
 	assert_false(touchstone_find("binary64", "fastest", TOUCHSTONE_BALL_BALL, numbers, 1, false, &time, error));
-	assert_string_equal(error, "no method 'fastest'; known are stable, naive, guarded, compensated, rounded, "
-							   "numerical-recipes, kahan, sterbenz, textbook-epsilon and more");
+	assert_non_null(strstr(error, "no method 'fastest'; known are stable, naive, guarded, compensated, rounded"));
+	assert_string_equal(error + strlen(error) - strlen(" and more"), " and more");
 	assert_false(touchstone_find("decimal", "stable", TOUCHSTONE_BALL_BALL, numbers, 1, false, &time, error));
 	assert_non_null(strstr(error, "no arithmetic 'decimal'"));
 	assert_false(touchstone_find("binary64", "kahan", TOUCHSTONE_BALL_PLANE, numbers, 1, false, &time, error));
