@@ -163,15 +163,28 @@ static void explain_states(const struct touchstone_engine *engine, void (*line)(
 		line(context, text);
 	}
 	if (engine->pairs.bucket) {
+		bool positional = engine->method->policy & POLICY_POSITIONAL;
 		snprintf(text, sizeof text,
-				 "pair states: tracked, since at a step positions cannot tell in from out; stored for the %llu pairs "
-				 "within a step, in %.3g bytes per particle",
+				 "pair states: %s; stored for the %llu pairs within a step, in %.3g bytes per particle",
+				 positional ? "read from separations whenever a pair is tested, as the method has it, though at a step "
+							  "they cannot tell in from out"
+							: "tracked, since at a step positions cannot tell in from out",
 				 (unsigned long long)engine->pairs.count, (double)pairs_memory(&engine->pairs) / engine->count);
 		line(context, text);
 	}
-	if (!engine->virtual_wall_count) return;
-	snprintf(text, sizeof text, "virtual walls: %zu; the side each particle is on is tracked, and nothing moves",
-			 engine->virtual_wall_count);
+	if (engine->last_met) line(context, "last partners: one per particle, since the method knows who has just met");
+	if (engine->cells.entry)
+		line(context,
+			 "cells and images: tracked; particles change them by leaving through a face, where positions cannot "
+			 "tell either");
+	if (engine->virtual_wall_count)
+		snprintf(
+			text, sizeof text,
+			"virtual walls: %zu; the side each particle is on is tracked, since on a wall positions cannot tell, and "
+			"nothing moves",
+			engine->virtual_wall_count);
+	else
+		snprintf(text, sizeof text, "virtual walls: none, so no sides");
 	line(context, text);
 }
 

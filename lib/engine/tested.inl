@@ -57,11 +57,14 @@ static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t ent
 static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
 					   const size_t candidates[2], int particles)
 {
-	for (int p = 0; p < particles; p++)
+	for (int p = 0; p < particles; p++) {
+		uint32_t i = particle[p], captured;
+		pairs_of(&engine->pairs, i, &captured);
 		for (size_t k = 0; k < candidates[p]; k++) {
 			uint32_t entry = list[p][k];
 			if (p == 1 && entry_particle(entry) == particle[0]) continue;
-			if (may_be_near(engine, particle[p], entry) || pairs_get(&engine->pairs, particle[p], entry))
-				tell_test(engine, particle[p], entry);
+			if (may_be_near(engine, i, entry) || (captured && pairs_get(&engine->pairs, i, entry)))
+				tell_test(engine, i, entry);
 		}
+	}
 }

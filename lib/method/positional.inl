@@ -12,8 +12,8 @@
  *
  * What goes wrong: rounding leaves half of all pairs on the wrong side of the step they have just passed. They pass it
  * once more, and receive its energy once more; where time cannot advance by so little, for ever. Witness (binary64):
- * square-shoulder with 500 particles, which does not get beyond its first thousand events
- * (verify/test/first_wrong_test.c). */
+ * square-shoulder with 500 particles in the absolute form, from its lattice: stuck on releases of one pair from event
+ * 43 on (verify/test/states_test.c, positional_is_stuck; `reproduce states` has the command). */
 
 static void out_of_memory(struct touchstone_engine *engine);
 

@@ -24,7 +24,7 @@ size_t states_precision_gases(bool full, struct step_gas *gases)
 													  .arithmetic = ladder[r].arithmetic,
 													  .method = "stable",
 													  .equilibrate = 20,
-													  .events = (full ? 4000000 : 80000) / (slow ? 8 : 1)};
+													  .events = (full ? 1000000 : 80000) / (slow ? 8 : 1)};
 		}
 	return RUNGS * SCENES;
 }

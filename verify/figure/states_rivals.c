@@ -21,7 +21,7 @@ size_t states_rivals_gases(bool full, struct step_gas *gases)
 												   .form = TOUCHSTONE_ABSOLUTE,
 												   .arithmetic = arithmetics[a],
 												   .method = methods[m],
-												   .events = (full ? 1000000 : 60000) / (a < 3 ? 1 : 15),
+												   .events = (full ? 200000 : 60000) / (a < 3 ? 1 : 15),
 												   .watched = true};
 	return count;
 }
