@@ -77,6 +77,11 @@ void touchstone_elastic(struct touchstone_engine *engine, bool elastic)
 	unit_of(engine)->elastic(engine, elastic);
 }
 
+bool touchstone_rescale(struct touchstone_engine *engine, int exponent)
+{
+	return unit_of(engine)->rescale(engine, exponent);
+}
+
 void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3], double velocity[3])
 {
 	unit_of(engine)->state(engine, particle, position, velocity);
@@ -91,6 +96,12 @@ int touchstone_separation(const struct touchstone_engine *engine, double terms[3
 						  double contact[TOUCHSTONE_MOST_TERMS])
 {
 	return unit_of(engine)->separation(engine, terms, contact);
+}
+
+size_t touchstone_overlaps(const struct touchstone_engine *engine, uint32_t particle, struct touchstone_overlap *list,
+						   size_t room)
+{
+	return unit_of(engine)->overlaps(engine, particle, list, room);
 }
 
 int touchstone_pair_state(const struct touchstone_engine *engine, uint32_t first, uint32_t second)

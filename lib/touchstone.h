@@ -19,6 +19,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default) /* the shared library shows what is declared here, and nothing else */
+#endif
 
 /* ------------------------------------------------------------------ scenes */
 
@@ -155,17 +158,14 @@ struct touchstone_observer {
 	void *context;
 };
 
-/* A pair that has a potential with steps and is tested because one of the two has just had an event. What it is asked
- * with is where the two are now. */
+/* A pair that has a potential with steps and is tested because one of the two has just had an event. */
 struct touchstone_test {
 	uint32_t first, second; /* numbered as in the scene; first is the smaller */
-	int state;              /* tracked; or, by a method that reads states from positions, as it has just read it */
-	int within;             /* how many steps the separation is within, in the working arithmetic */
-	int step;               /* the nearest step: so many steps are outside of it */
+	int state;              /* tracked, or as a method that reads states from positions has just read it */
+	int within, step;       /* how many steps it is within, in the working arithmetic; and outside of the nearest one */
 	double excess; /* |r|^2 / d^2 - 1 at that step's distance d, in the working arithmetic, rounded to double */
 };
 typedef void touchstone_tested(void *context, struct touchstone_engine *engine, const struct touchstone_test *test);
-
 struct touchstone_limits {
 	uint64_t events;          /* physical events to execute at most, in this call */
 	double time;              /* no event later than this is executed; INFINITY for no limit */
@@ -218,14 +218,22 @@ void touchstone_recount(struct touchstone_engine *engine);
 /* Elastic collisions from here on (true), or the scene's own law again (false). For equilibration. */
 void touchstone_elastic(struct touchstone_engine *engine, bool elastic);
 
+/* Another unit of time: from here on all speeds are 2^exponent times what they were, and all times, that of the last
+ * event too, 2^-exponent times. To hard bodies this makes no difference (they have no energy of their own), and only
+ * exponents change: no number is rounded, unless one leaves the range of the arithmetic. So a gas that cools can be
+ * kept as warm as it began. In the absolute form all that follows is the same, event by event. In the relative form
+ * pages keep their length, to which a cooled gas had grown slow, so that times are rounded again as they were at the
+ * start. False, changing nothing, where something else has a scale of its own (gravity, steps, viscoelastic
+ * restitution), and for more than 64 either way. Not to be called by an observer. */
+bool touchstone_rescale(struct touchstone_engine *engine, int exponent);
+
 /* Position and velocity of one particle at the time of the last event, rounded to double; positions within the box
  * along periodic axes. */
 void touchstone_state(const struct touchstone_engine *engine, uint32_t particle, double position[3],
 					  double velocity[3]);
 
-/* From here on `tested` is told, once for each event and pair (or image of it), of the pairs that the search after it
- * tests: those whose state is not 0, and those no farther apart than `reach` times their outermost step (INFINITY: all
- * that are tested). NULL: nobody is told, and that costs nothing. Events are told of first. */
+/* From here on `tested` is told of pairs (and images) that the search after an event tests: those in a state other than
+ * 0, or no farther apart than `reach` times their outermost step. NULL: nobody is, at no cost. */
 void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach, void *context);
 
 /* During an observer's call: the exact relative position, first minus second particle, of the pair whose event or test
@@ -233,6 +241,18 @@ void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_teste
  * distance of the event (contact, or the step; of a test the nearest step) in the same way, filled with zeros. */
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 						  double contact[TOUCHSTONE_MOST_TERMS]);
+
+/* A particle that overlaps another: both are hard bodies to each other, or have cores. */
+struct touchstone_overlap {
+	uint32_t partner;
+	double depth; /* how much nearer their centres are than contact, rounded to double: > 0 */
+};
+
+/* Lists up to `room` particles that overlap this one at the time of the last event (during an observer's call: of the
+ * event it is told of), in no order; returns how many there are. Positions are those which an event at that time would
+ * leave in the working arithmetic, and whether they overlap is decided exactly. Looks at neighbouring cells only. */
+size_t touchstone_overlaps(const struct touchstone_engine *engine, uint32_t particle, struct touchstone_overlap *list,
+						   size_t room);
 
 /* The tracked state of a pair: how many steps of its potential it is within. 0, the commonest, is not stored. It was
  * read from the positions once, when the engine was made (a pair exactly at a step is outside it), and is changed by
@@ -370,6 +390,9 @@ touchstone_ball_ball_finder touchstone_ball_ball;
 touchstone_ball_leave_finder touchstone_ball_leave;
 touchstone_ball_plane_finder touchstone_ball_plane;
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

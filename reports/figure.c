@@ -20,6 +20,7 @@ EMBED(plot_scaling, "plots/scaling.gp");
 EMBED(plot_curves, "plots/curves.gp");
 EMBED(plot_bars, "plots/bars.gp");
 EMBED(plot_frontier, "plots/frontier.gp");
+EMBED(plot_map, "plots/map.gp");
 
 static const struct kind {
 	const char *name, *script;
@@ -31,6 +32,7 @@ static const struct kind {
 	{"curves", plot_curves, {"x", "y", "low", "high"}},
 	{"bars", plot_bars, {"category", "value", "low", "high"}},
 	{"frontier", plot_frontier, {"x", "y", "low", "high", "best"}},
+	{"map", plot_map, {"x", "y", "value"}},
 };
 
 static const struct kind *kind_of(const char *name)

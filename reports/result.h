@@ -106,6 +106,8 @@ __attribute__((format(printf, 3, 4))) void table_shaded(struct result_table tabl
  *	frontier          x y low high best         what each costs and is worth: points where best is 1 stand out, the
  *	                                            others are faint; SERIES_LINE is the frontier, from left to right.
  *	                                            Points are marked (series_mark). One panel per cell.
+ *	map               x y value                 a value > 0 on a logarithmic scale of colours, on an even grid of x and
+ *y; NaN leaves a cell white. A point's name, where shown, stands in its cell
  */
 struct figure_axis {
 	const char *label;    /* with the unit: "time / s" */

@@ -9,6 +9,7 @@
 #include "engine/cells.h"
 #include "engine/pairs.h"
 #include "engine/sieve.h"
+#include "overlap/excess.h"
 #include "scene/potential.h"
 #include "touchstone.h"
 #include "unit/unit.h"
@@ -60,13 +61,15 @@ extern const struct unit THIS_UNIT;
 #include "engine/shadow.inl"
 
 #include "engine/search.inl"
-#include "engine/tested.inl"
 
 #include "engine/collide.inl"
 #include "engine/crossing.inl"
 #include "engine/layout.inl"
+#include "engine/overlaps.inl"
 #include "engine/step.inl"
+#include "engine/tested.inl"
 
+#include "engine/rescale.inl"
 #include "engine/run.inl"
 
 #include "engine/create_states.inl"

@@ -83,26 +83,13 @@ static int engine_separation(const struct touchstone_engine *engine, double term
 							 double contact[TOUCHSTONE_MOST_TERMS])
 {
 	uint32_t i = engine->touching[0], j = engine->touching[1];
-	int most = 0, count[3] = {0};
-	for (int axis = 0; engine->tested_offset && axis < engine->dimensions; axis++) {
-		count[axis] = expand(engine->tested_offset[axis], terms[axis], TOUCHSTONE_MOST_TERMS);
-		if (count[axis] > most) most = count[axis];
+	if (engine->tested_offset) {
+		write_contact(engine->touching_distance, contact);
+		return tested_terms(engine, terms);
 	}
-	for (int axis = 0; !engine->tested_offset && axis < engine->dimensions; axis++) {
-		double *to = terms[axis];
-		int32_t places = engine->place[i].index[axis] - engine->place[j].index[axis] -
-						 engine->touching_image[axis] * engine->places[axis];
-		int own = expand(engine->body[i].position[axis], to, TOUCHSTONE_MOST_TERMS);
-		int other = expand(negated(engine->body[j].position[axis]), to + own, TOUCHSTONE_MOST_TERMS);
-		count[axis] = own + other;
-		if (places) to[count[axis]++] = places * engine->place_width[axis];
-		if (count[axis] > most) most = count[axis];
-	}
-	for (int axis = 0; axis < 3; axis++)
-		for (int term = count[axis]; term < most; term++) terms[axis][term] = 0;
-	memset(contact, 0, TOUCHSTONE_MOST_TERMS * sizeof *contact);
-	expand(engine->touching_distance, contact, TOUCHSTONE_MOST_TERMS);
-	return most;
+	const struct standing first = {engine->body[i], engine->place[i]}, second = {engine->body[j], engine->place[j]};
+	write_contact(engine->touching_distance, contact);
+	return separation_terms(engine, &first, &second, engine->touching_image, terms);
 }
 
 static int engine_pair_state(const struct touchstone_engine *engine, uint32_t first, uint32_t second)
@@ -241,9 +228,11 @@ const struct unit THIS_UNIT = {
 	.status = engine_status,
 	.recount = engine_recount,
 	.elastic = engine_elastic,
+	.rescale = engine_rescale,
 	.state = engine_state,
 	.observe_tests = engine_observe_tests,
 	.separation = engine_separation,
+	.overlaps = engine_overlaps,
 	.pair_state = engine_pair_state,
 	.captured = engine_captured,
 	.side = engine_side,

@@ -7,10 +7,25 @@ static inline num elapsed(const struct body *from, const struct body *to)
 	return add(sub(to->time, from->time), from_double(to->page - from->page));
 }
 
+/* After a change of units (engine/rescale.inl) the page of a body's last event may begin within a page: what comes of
+ * it is counted from where that one begins. It is rounded so that no time runs backwards. */
+static struct moment moment_evened(const struct touchstone_engine *engine, struct moment moment)
+{
+	double length = engine->page_length, begins = floor(moment.page * engine->pages_per_time) * length;
+	if (begins == moment.page) return moment;
+	num rest = from_double(moment.page - begins), time = add(moment.time, rest);
+	if (less(sub(time, rest), moment.time)) time = add(time, from_double(ldexp(length, -engine->bits)));
+	return (struct moment){begins, time};
+}
+
 /* The moment `time` after the beginning of a page, on the page on which it falls. */
 static inline struct moment moment_on(const struct touchstone_engine *engine, double page, num time)
 {
 	struct moment moment = {page, time};
+	if (engine->uneven) {
+		moment = moment_evened(engine, moment);
+		time = moment.time;
+	}
 	double length = engine->page_length, near = to_double(time);
 	if (!(near >= length)) return moment;
 	double pages = floor(near / length);

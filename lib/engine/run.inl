@@ -114,7 +114,7 @@ static double due(const struct touchstone_engine *engine, const struct entry *en
 /* So many looks in a row without an event, and the particles may as well never meet. */
 static uint64_t patience(const struct touchstone_engine *engine)
 {
-	return (UINT64_C(1) << 24) + UINT64_C(64) * engine->count;
+	return (UINT64_C(1) << 22) + UINT64_C(64) * engine->count;
 }
 
 static enum touchstone_verdict engine_run(struct touchstone_engine *engine, const struct touchstone_limits *limits,

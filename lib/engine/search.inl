@@ -236,11 +236,15 @@ static double leaving_wait(const struct touchstone_engine *engine, uint32_t i, u
 static double leaving(const struct touchstone_engine *engine, uint32_t i, double *page, uint8_t *next)
 {
 	if (!engine->cells.entry) return INFINITY;
-	double soonest = leaving_wait(engine, i, next) + to_double(engine->body[i].time);
+	double soonest = leaving_wait(engine, i, next) + to_double(engine->body[i].time), begins = engine->body[i].page;
+	if (engine->uneven) {
+		begins = floor(begins * engine->pages_per_time) * engine->page_length;
+		soonest += engine->body[i].page - begins;
+	}
 	double pages = soonest * engine->pages_per_time;
 	if (!(pages < 0x1p52) || soonest == INFINITY) return INFINITY;
 	double turned = pages > 0 ? (double)(int64_t)pages * engine->page_turn : 0;
-	*page = engine->body[i].page + turned;
+	*page = begins + turned;
 	return soonest - turned;
 }
 

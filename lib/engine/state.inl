@@ -153,6 +153,7 @@ struct touchstone_engine {
 	double page_length;    /* INFINITY: the page is never turned */
 	double pages_per_time; /* its reciprocal, exactly */
 	double page_turn;      /* the length, or 0 */
+	bool uneven;           /* whether the page of a body's last event may begin within a page */
 
 	/* where to look */
 	enum touchstone_search search;

@@ -68,3 +68,16 @@ static void tell_tests(struct touchstone_engine *engine, const uint32_t *particl
 		}
 	}
 }
+
+/* The offset at hand as exact sums of doubles, filled with zeros; returns how many there are per axis. */
+static int tested_terms(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS])
+{
+	int most = 0, count[3] = {0};
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		count[axis] = expand(engine->tested_offset[axis], terms[axis], TOUCHSTONE_MOST_TERMS);
+		if (count[axis] > most) most = count[axis];
+	}
+	for (int axis = 0; axis < 3; axis++)
+		for (int term = count[axis]; term < most; term++) terms[axis][term] = 0;
+	return most;
+}

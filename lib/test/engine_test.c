@@ -130,7 +130,7 @@ static void search_does_not_matter(void **state)
 	static const char *const methods[] = {"stable", "rounded", "compensated"}; /* in binary64 */
 	struct random_state random = random_seed(SEED);
 	print_message("seed %d\n", SEED);
-	for (int trial = 0; trial < (brief ? 36 : 120); trial++) {
+	for (int trial = 0; trial < (brief ? 24 : 48); trial++) {
 		int dimensions = 1 + (int)(random_bits(&random) % 3);
 		struct scene_recipe recipe =
 			gas(dimensions, 20 + random_bits(&random) % 40, 0.1 + 0.5 * random_uniform(&random));

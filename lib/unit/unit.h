@@ -16,10 +16,12 @@ struct unit {
 	void (*status)(const struct touchstone_engine *, struct touchstone_status *);
 	void (*recount)(struct touchstone_engine *);
 	void (*elastic)(struct touchstone_engine *, bool);
+	bool (*rescale)(struct touchstone_engine *, int exponent);
 	void (*state)(const struct touchstone_engine *, uint32_t particle, double position[3], double velocity[3]);
 	void (*observe_tests)(struct touchstone_engine *, touchstone_tested *, double reach, void *context);
 	int (*separation)(const struct touchstone_engine *, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 					  double contact[TOUCHSTONE_MOST_TERMS]);
+	size_t (*overlaps)(const struct touchstone_engine *, uint32_t particle, struct touchstone_overlap *, size_t room);
 	int (*pair_state)(const struct touchstone_engine *, uint32_t first, uint32_t second);
 	size_t (*captured)(const struct touchstone_engine *, uint32_t particle, struct touchstone_captured *, size_t room);
 	int (*side)(const struct touchstone_engine *, uint32_t particle, size_t wall);

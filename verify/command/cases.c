@@ -1,16 +1,25 @@
 #include "command/cases.h"
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "command/beside.h"
+
 const char *cases_folder(const char *wanted)
 {
 	struct stat there;
 	if (wanted) return wanted;
-	return stat("cases", &there) == 0 && S_ISDIR(there.st_mode) ? "cases" : TOUCHSTONE_CASES;
+	if (stat("cases", &there) == 0 && S_ISDIR(there.st_mode)) return "cases";
+	static char installed[PATH_MAX];
+	char *path = beside_program("../share/touchstone/cases");
+	if (!path) return TOUCHSTONE_CASES;
+	snprintf(installed, sizeof installed, "%s", path);
+	free(path);
+	return installed;
 }
 
 /* Whether there is something to read from; pipes will do. */

@@ -8,7 +8,6 @@
 #include "measure/call_time.h"
 #include "measure/frontier.h"
 #include "measure/start_state.h"
-#include "scene/scene.h"
 
 enum {
 	TIMED = 400,                       /* events that are timed together */
@@ -24,32 +23,8 @@ static bool stopped(const struct chart_plan *plan)
 /* An equilibrated gas. False with `error` empty when stopped. */
 static bool make_scene(const struct chart_plan *plan, uint64_t seed, struct touchstone_scene *scene, char error[160])
 {
-	static const struct scene_species ball = {1, {1, 1}};
-	const struct scene_recipe recipe = {
-		.dimensions = 3,
-		.particle_count = CHART_SPHERES,
-		.density = 0.5,
-		.boundary_restitution = {TOUCHSTONE_CONSTANT, 1},
-		.species_count = 1,
-		.species = &ball,
-		.restitution = {TOUCHSTONE_CONSTANT, 1},
-		.positions = SCENE_LATTICE,
-		.velocities = SCENE_MAXWELL,
-		.temperature = 1,
-	};
-	struct scene_error wrong;
-	if (!scene_build(&recipe, seed, scene, &wrong)) {
-		snprintf(error, 160, "%.40s: %.110s", wrong.key, wrong.text);
-		return false;
-	}
-	struct touchstone_particle *particles = calloc(CHART_SPHERES, sizeof *particles);
-	const struct watch watch = {.stop = plan->stop};
-	snprintf(error, 160, "out of memory");
-	bool good = particles && start_state(scene, equilibrate, &watch, particles, error);
-	free((void *)scene->particles);
-	scene->particles = particles;
-	if (!good) scene_free(scene);
-	return good;
+	const struct scene_recipe recipe = start_spheres(CHART_SPHERES, 0.5);
+	return start_scene(&recipe, seed, equilibrate, &(struct watch){.stop = plan->stop}, scene, error);
 }
 
 /* ---- horizons */

@@ -21,11 +21,15 @@ int command_reproduce(int argc, char **argv);
 int command_grade(int argc, char **argv);
 int command_chart(int argc, char **argv);
 int command_replay(int argc, char **argv);
+int command_campaign(int argc, char **argv);
+int command_merge(int argc, char **argv);
 int command_report(int argc, char **argv);
 
-/* The figures that `reproduce` makes, for `list`; the name after the last is NULL. */
+/* The figures that `reproduce` makes; the name after the last is NULL. */
+struct figure_setup;
 struct figure_entry {
 	const char *name, *about;
+	struct result *(*make)(const struct figure_setup *setup, char error[512]);
 };
 extern const struct figure_entry figures[];
 

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "campaign/campaign_file.h"
 #include "command/cases.h"
 #include "family/family.h"
 #include "store/query_file.h"
@@ -30,7 +31,9 @@ static const struct {
 };
 enum { ARITHMETICS = sizeof arithmetics / sizeof *arithmetics };
 
-static const struct figure_entry methods[] = {
+static const struct {
+	const char *name, *about;
+} methods[] = {
 	{"stable", "2014 paper, algorithms 1 and 2: an event when bodies touch or overlap, and approach"},
 	{"naive", "2014 paper, eq. 12 and section 3: textbook roots, whatever the rounding made of them"},
 	{"guarded", "a simulator's guards: slow balls and balls that overlap have no event"},
@@ -125,21 +128,47 @@ static bool list_case(const char *folder, const char *base)
 	return file;
 }
 
-static bool list_cases(const char *folder)
+/* The same for a campaign, whose scene may be one of the cases. */
+static bool list_campaign(const char *folder, const char *base)
+{
+	char *path, error[STORE_ERROR];
+	if (asprintf(&path, "%s/campaigns/%s", folder, base) < 0) return false;
+	struct campaign_file *file = campaign_file_open(path, folder, error);
+	free(path);
+	if (file)
+		print(file->name, file->title);
+	else
+		refuse("%s", error);
+	campaign_file_close(file);
+	return file;
+}
+
+/* Lists what a folder of the cases holds. */
+static bool list_entries(const char *folder, const char *within, bool (*list)(const char *folder, const char *base))
 {
 	struct dirent **entries;
-	int count = scandir(folder, &entries, is_scene, versionsort);
-	if (count < 0) {
-		refuse("--cases: %s: cannot be read: %s; accepted: a folder with scenes", folder, strerror(errno));
-		return false;
-	}
-	bool good = true;
+	char *path;
+	if (asprintf(&path, "%s%s", folder, within) < 0) return false;
+	int count = scandir(path, &entries, is_scene, versionsort);
+	if (count < 0) refuse("--cases: %s: cannot be read: %s; accepted: a folder with scenes", path, strerror(errno));
+	bool good = count >= 0;
 	for (int e = 0; e < count; e++) {
-		good &= list_case(folder, entries[e]->d_name);
+		good &= list(folder, entries[e]->d_name);
 		free(entries[e]);
 	}
-	free(entries);
+	if (count >= 0) free(entries);
+	free(path);
 	return good;
+}
+
+static bool list_cases(const char *folder)
+{
+	return list_entries(folder, "", list_case);
+}
+
+static bool list_campaigns(const char *folder)
+{
+	return list_entries(folder, "/campaigns", list_campaign);
 }
 
 static const struct kind {
@@ -147,7 +176,7 @@ static const struct kind {
 	bool (*list)(const char *folder);
 } kinds[] = {
 	{"cases", list_cases},       {"methods", list_methods}, {"arithmetics", list_arithmetics},
-	{"families", list_families}, {"figures", list_figures},
+	{"families", list_families}, {"figures", list_figures}, {"campaigns", list_campaigns},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -165,11 +194,13 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case ARGP_KEY_ARG:
 		if (wish->kind)
-			refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures");
+			refuse_usage(
+				"list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, campaigns");
 		for (int k = 0; k < KINDS; k++)
 			if (strcmp(kinds[k].name, argument) == 0) wish->kind = &kinds[k];
 		if (!wish->kind)
-			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures", argument);
+			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns",
+						 argument);
 		return 0;
 	default:
 		return ARGP_ERR_UNKNOWN;
@@ -183,9 +214,10 @@ int command_list(int argc, char **argv)
 	static const struct argp argp = {
 		.options = options,
 		.parser = parse,
-		.args_doc = "[cases|methods|arithmetics|families|figures]",
+		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns]",
 		.doc = "Lists what there is, with one line each: scenes that `run` knows by name, methods and arithmetics, "
-			   "families of questions to finders, figures that `reproduce` makes.\vExample: touchstone list methods",
+			   "families of questions to finders, figures that `reproduce` makes, campaigns.\vExample: touchstone list "
+			   "methods",
 	};
 	struct wish wish = {0};
 	argp_parse(&argp, argc, argv, 0, NULL, &wish);

@@ -20,6 +20,8 @@ static const struct command {
 	{"grade", "finders of event times, held against the exact answers", command_grade},
 	{"chart", "speed against accuracy, measured here and now", command_chart},
 	{"replay", "one input through every method and arithmetic, beside the exact answer", command_replay},
+	{"campaign", "runs over a grid of parameters and seeds, each made once", command_campaign},
+	{"merge", "the stores of a campaign's shards put together", command_merge},
 	{"report", "pages from stored results", command_report},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
@@ -63,7 +65,7 @@ int main(int argc, char **argv)
 {
 	atexit(check_output);
 	argp_err_exit_status = STATUS_REFUSED;
-	argp_program_version = "touchstone 0.1";
+	argp_program_version = "touchstone " TOUCHSTONE_VERSION;
 
 	struct argp_option options[COMMANDS + 2] = {{.doc = "Commands:"}};
 	for (int c = 0; c < COMMANDS; c++)

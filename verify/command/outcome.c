@@ -57,11 +57,12 @@ static bool equilibrate(struct outcome *outcome, const struct run_plan *plan, st
 	return false;
 }
 
-/* Observes for all that is measured. */
+/* Shows an event to all that look on. */
 static void see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
 {
-	const struct outcome *outcome = context;
+	struct outcome *outcome = context;
 	if (outcome->impact) impact_see(outcome->impact, engine, event);
+	if (outcome->three_bodies) three_body_see(&outcome->three_body, engine, event);
 	if (!outcome->states) return;
 	inconsistency_see(&outcome->states->inconsistency, engine, event);
 	misreading_see(&outcome->states->misreading, engine, event);
@@ -78,6 +79,7 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 					struct simulation_progress *progress, uint64_t before)
 {
 	struct touchstone_observer observer = {see, outcome};
+	bool observed = outcome->impact || outcome->three_bodies || outcome->states;
 	struct touchstone_limits limits = plan->limits;
 	touchstone_recount(simulation->engine);
 	touchstone_status(simulation->engine, &outcome->status);
@@ -89,7 +91,6 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 		misreading_begin(&outcome->states->misreading, &simulation->scene, simulation->engine);
 		touchstone_observe_tests(simulation->engine, see_test, inconsistency_reach, outcome->states);
 	}
-	bool observed = outcome->impact || outcome->states;
 	double clock = progress_clock();
 	outcome->interrupted = !simulation_advance(simulation, &limits, observed ? &observer : NULL, progress, before);
 	outcome->wall_seconds = progress_clock() - clock;
@@ -123,12 +124,31 @@ static bool write_particles(const struct simulation *simulation, const char *pat
 	return written;
 }
 
+/* Where the run parts from the same in a finer arithmetic; before it begins, both get one start. */
+static bool compare(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
+					struct simulation_progress *progress, uint64_t *executed)
+{
+	struct touchstone_limits limits = plan->limits;
+	bool anew = outcome->status.events > 0;
+	if (anew && !simulation_begin_anew(simulation, plan->file, outcome->error)) return false;
+	limits.time += simulation->scene.clock;
+	uint64_t then = plan->limits.events < UINT64_MAX ? plan->limits.events : 0;
+	if (!simulation_horizon(simulation, plan->file, plan->against, &limits, progress, *executed + then,
+							&outcome->horizon, outcome->error))
+		return false;
+	outcome->compared = true;
+	*executed += outcome->horizon.events;
+	return true;
+}
+
 /* Makes room for what is measured; false without. */
 static bool begin_measures(struct outcome *outcome, const struct run_plan *plan)
 {
 	int bits = arithmetic_bits(plan->file->arithmetic);
 	if (plan->impact && !(outcome->impact = malloc(sizeof *outcome->impact))) return false;
 	if (plan->impact) impact_begin(outcome->impact, bits);
+	if (plan->three_body) outcome->three_bodies = three_body_begin(&outcome->three_body, outcome->particles);
+	if (plan->three_body && !outcome->three_bodies) return false;
 	if (!plan->states) return true;
 	outcome->states = calloc(1, sizeof *outcome->states);
 	return outcome->states && inconsistency_begin(&outcome->states->inconsistency, bits, outcome->particles);
@@ -148,8 +168,11 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	outcome->virtual_wall_count = outcome->fluxes ? walls : 0;
 	uint64_t before = 0;
 	bool ready = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
+	if (ready && plan->against && plan->limits.events > 0)
+		ready = compare(outcome, plan, simulation, progress, &before);
+	outcome->failed = *outcome->error;
 	if (ready) measure(outcome, plan, simulation, progress, before);
-	if (plan->xyz) write_particles(simulation, plan->xyz, outcome->error);
+	if (plan->xyz && !outcome->failed) write_particles(simulation, plan->xyz, outcome->error);
 }
 
 void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t seed,
@@ -175,6 +198,7 @@ void outcome_free(struct outcome *outcome)
 		misreading_end(&outcome->states->misreading);
 	}
 	free(outcome->states);
+	three_body_end(&outcome->three_body);
 	free(outcome->impact);
 	free(outcome->fluxes);
 }
@@ -197,4 +221,15 @@ struct impact *outcome_impact(const struct outcome *outcomes, size_t count)
 			*together = *outcomes[o].impact;
 	}
 	return together;
+}
+
+bool outcome_three_body(const struct outcome *outcomes, size_t count, struct three_body *together)
+{
+	bool measured = false;
+	*together = (struct three_body){0};
+	for (size_t o = 0; o < count; o++) {
+		if (outcomes[o].three_bodies) three_body_merge(together, &outcomes[o].three_body);
+		measured |= outcomes[o].three_bodies;
+	}
+	return measured;
 }

@@ -9,7 +9,8 @@
  *	peak_memory_bytes      of the whole program, with all runs
  *	machine                processor, compiler and so on
  *	explained              list of lines, with --explain
- *	runs, together         with --runs R, R > 1: list of all runs, the first included; sums over them
+ *	runs, together         with --runs R, R > 1: list of all runs, the first included; sums over them, and with
+ *	                       --against horizon: {count, mean, deviation, least, open}: of those that never differed
  *
  * and of each run:
  *
@@ -30,6 +31,17 @@
  *	conservation           when measured: energy [first, last], momentum [[x, y, z] first, [x, y, z] last],
  *	                       energy_scale, momentum_scale (see measure/conservation.h), energy_drift, momentum_drift
  *	                       (relative to the scale), energy_drift_per_million, momentum_drift_per_million (collisions)
+ *	three_body             when measured: contacts; overlapping, those after which the two overlap; events, those after
+ *	                       which one of them overlaps a third as well, rate, rate_interval (per contact, 95 %);
+ *	                       encounters, those that do not just follow another of the same three, encounter_rate and
+ *	                       encounter_rate_interval
+ *	against                with --against A: A
+ *	horizon                events per particle for which both arithmetics take the same course; null when none was run
+ *	horizon_events, horizon_time
+ *	                       how many events that are, and when the last of them happens
+ *	horizon_differs        false when the two had not parted where the run ended (or was interrupted)
+ *	parting                when they differ, the events that do, {here: {kind, particles: [first, second] or particle
+ *	                       and wall, time}, there: the same in the finer arithmetic}; null for one that has none left
  *	impact                 when measured: contacts; measured and exact, each with below, above, fraction_below,
  *	                       fraction_below_interval (95 %), mean_ulp, deviation_ulp, least_ulp, most_ulp (ulp: the step
  *	                       from the contact distance upwards), and bars, counts per representable number, of
@@ -50,6 +62,7 @@
 #include "measure/impact.h"
 #include "measure/inconsistency.h"
 #include "measure/misreading.h"
+#include "measure/three_body.h"
 
 /* What is to be run, once or several times. */
 struct run_plan {
@@ -58,8 +71,9 @@ struct run_plan {
 	struct touchstone_limits limits; /* after equilibration */
 	const char *const *settings;
 	size_t setting_count;
-	bool conservation, impact, states; /* measured? */
-	const char *xyz;                   /* file for the final configuration, or NULL */
+	bool conservation, impact, three_body, states; /* measured? */
+	const char *xyz;                               /* file for the final configuration, or NULL */
+	const char *against;                           /* a finer arithmetic to find the horizon with, or NULL */
 };
 
 /* What was found out about the states of pairs. */
@@ -78,7 +92,11 @@ struct outcome {
 	double wall_seconds; /* without equilibration */
 	bool conservation;   /* measured, at begin and end: */
 	struct conservation conserved[2];
-	struct impact *impact;         /* NULL when not measured; freed by outcome_free */
+	bool compared; /* with a finer arithmetic: */
+	struct horizon horizon;
+	struct impact *impact; /* NULL when not measured; freed by outcome_free */
+	bool three_bodies;     /* measured: */
+	struct three_body three_body;
 	struct states_outcome *states; /* NULL when not measured; freed by outcome_free */
 	size_t virtual_wall_count;
 	struct touchstone_flux (*fluxes)[2]; /* through each; freed by outcome_free */
@@ -99,8 +117,19 @@ const char *outcome_verdict(const struct outcome *outcome);
 void outcome_print(const struct run_plan *plan, const struct outcome *outcomes, size_t count);
 json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes, size_t count, json_t *explained);
 
+/* The same of their horizons alone: lines of the table, members of a run, and those of all runs together. */
+void outcome_print_horizon(const struct run_plan *plan, const struct outcome *outcomes, size_t count);
+void outcome_set_horizon(json_t *run, const struct run_plan *plan, const struct outcome *outcome);
+json_t *outcome_horizons(const struct outcome *outcomes, size_t count);
+
+/* One line of the table for people: what, and the rest as printf has it. */
+__attribute__((format(printf, 2, 3))) void outcome_row(const char *what, const char *format, ...);
+
 /* The most memory this program has held so far, in bytes. */
 uint64_t outcome_peak_memory(void);
+
+/* All three-body events of several outcomes; false when they were not measured. */
+bool outcome_three_body(const struct outcome *outcomes, size_t count, struct three_body *together);
 
 /* All impacts of several outcomes; NULL when they were not measured. The caller frees it. */
 struct impact *outcome_impact(const struct outcome *outcomes, size_t count);

@@ -65,6 +65,23 @@ static json_t *impact_json(const struct impact *impact)
 	return json;
 }
 
+static json_t *three_body_json(const struct three_body *three_body)
+{
+	struct interval events, encounters;
+	double rate = three_body_rate(three_body, &events);
+	double encounter_rate = three_body_encounter_rate(three_body, &encounters);
+	json_t *json = json_object();
+	json_object_set_new(json, "contacts", whole(three_body->contacts));
+	json_object_set_new(json, "overlapping", whole(three_body->overlapping));
+	json_object_set_new(json, "events", whole(three_body->events));
+	json_object_set_new(json, "rate", number(rate));
+	json_object_set_new(json, "rate_interval", numbers((double[]){events.low, events.high}, 2));
+	json_object_set_new(json, "encounters", whole(three_body->encounters));
+	json_object_set_new(json, "encounter_rate", number(encounter_rate));
+	json_object_set_new(json, "encounter_rate_interval", numbers((double[]){encounters.low, encounters.high}, 2));
+	return json;
+}
+
 static json_t *conservation_json(const struct outcome *outcome)
 {
 	const struct conservation *begin = &outcome->conserved[0], *end = &outcome->conserved[1];
@@ -99,7 +116,7 @@ static json_t *fluxes_json(const struct outcome *outcome)
 	return list;
 }
 
-static void set_run(json_t *json, const struct outcome *outcome)
+static void set_run(json_t *json, const struct run_plan *plan, const struct outcome *outcome)
 {
 	const struct touchstone_status *status = &outcome->status;
 	json_object_set_new(json, "seed", whole(outcome->seed));
@@ -126,6 +143,8 @@ static void set_run(json_t *json, const struct outcome *outcome)
 						number((double)status->state_memory / (double)outcome->particles));
 	if (outcome->virtual_wall_count) json_object_set_new(json, "fluxes", fluxes_json(outcome));
 	if (outcome->conservation) json_object_set_new(json, "conservation", conservation_json(outcome));
+	if (outcome->three_bodies) json_object_set_new(json, "three_body", three_body_json(&outcome->three_body));
+	if (plan->against) outcome_set_horizon(json, plan, outcome);
 	if (outcome->impact) json_object_set_new(json, "impact", impact_json(outcome->impact));
 	if (outcome->states) json_object_set_new(json, "states", states_json(outcome->states));
 }
@@ -140,6 +159,9 @@ static json_t *together_json(const struct outcome *outcomes, size_t count)
 	json_t *json = json_object();
 	json_object_set_new(json, "events", whole(events));
 	json_object_set_new(json, "collisions", whole(collisions));
+	struct three_body three_body;
+	if (outcome_three_body(outcomes, count, &three_body))
+		json_object_set_new(json, "three_body", three_body_json(&three_body));
 	struct impact *impact = outcome_impact(outcomes, count);
 	if (impact) json_object_set_new(json, "impact", impact_json(impact));
 	free(impact);
@@ -160,7 +182,7 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 	json_object_set_new(json, "arithmetic", json_string(file->arithmetic));
 	json_object_set_new(json, "bits", json_integer(arithmetic_bits(file->arithmetic)));
 	json_object_set_new(json, "method", json_string(file->method));
-	set_run(json, outcomes);
+	set_run(json, plan, outcomes);
 	json_object_set_new(json, "peak_memory_bytes", whole(outcome_peak_memory()));
 	json_object_set_new(json, "machine", provenance());
 	if (explained) json_object_set(json, "explained", explained);
@@ -168,10 +190,12 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 	json_t *runs = json_array();
 	for (size_t o = 0; o < count; o++) {
 		json_t *run = json_object();
-		set_run(run, &outcomes[o]);
+		set_run(run, plan, &outcomes[o]);
 		json_array_append_new(runs, run);
 	}
 	json_object_set_new(json, "runs", runs);
 	json_object_set_new(json, "together", together_json(outcomes, count));
+	if (plan->against)
+		json_object_set_new(json_object_get(json, "together"), "horizon", outcome_horizons(outcomes, count));
 	return json;
 }

@@ -7,19 +7,24 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "campaign/campaign.h"
 #include "command/interrupt.h"
 #include "command/progress.h"
 #include "figure/figure.h"
 
 const struct figure_entry figures[] = {
-	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide"},
-	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts"},
-	{"states", "2016, section 5: wells and shoulders, what positions say of them, and methods that believe it"},
-	{NULL, NULL},
+	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide", figure_impact},
+	{"fig5", "2014, fig. 5: how often three bodies meet, over restitution and density", figure_three_body},
+	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts", figure_collapse},
+	{"ladder", "2014, fig. 5 at 53 bits: how rates of what goes wrong fall with the bits carried", figure_ladder},
+	{"horizon", "for how many events per particle a run can be trusted, over the bits it carries", figure_horizon},
+	{"time-and-place", "what late times and far places do to impacts, three-body events and the horizon",
+	 figure_time_place},
+	{"states", "2016, section 5: wells and shoulders, what positions say of them, and methods that believe it",
+	 figure_states},
+	{0},
 };
-static struct result *(*const makers[])(const struct figure_setup *, char error[512]) = {figure_impact, figure_collapse,
-																						 figure_states};
-enum { FIGURES = sizeof makers / sizeof *makers };
+enum { FIGURES = sizeof figures / sizeof *figures - 1 };
 
 struct arguments {
 	bool wanted[FIGURES];
@@ -31,7 +36,7 @@ struct arguments {
 
 static const struct argp_option options[] = {
 	{"quick", 'q', 0, 0, "sizes that take minutes (the default)", 0},
-	{"full", 'f', 0, 0, "the papers' own sizes: 10^9 collisions per histogram, 10^6 plates, 1.6 10^8 events", 0},
+	{"full", 'f', 0, 0, "the papers' own sizes: 10^9 collisions per histogram, 10^6 plates", 0},
 	{"seed", 'S', "S", 0, "of the start states and plates (1)", 0},
 	{"threads", 't', "K", 0, "runs side by side (as many as there are cores); the numbers do not depend on it", 0},
 	{"results", 'r', "DIR", 0, "where results are stored (build/results)", 0},
@@ -43,7 +48,7 @@ static void want(struct arguments *arguments, const char *name)
 	bool found = false;
 	for (int f = 0; f < FIGURES; f++)
 		if (strcmp(name, "all") == 0 || strcmp(name, figures[f].name) == 0) arguments->wanted[f] = found = true;
-	if (!found) refuse_usage("no figure '%.40s'; accepted: fig3, fig7, states, all", name);
+	if (!found) refuse_usage("no figure '%.40s'; accepted: all, or one that `touchstone list figures` has", name);
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -90,12 +95,13 @@ static int make(int f, const struct arguments *arguments)
 		.full = arguments->full,
 		.seed = arguments->seed,
 		.threads = arguments->threads,
+		.folder = arguments->results,
 		.stop = interrupt_flag(),
 		.progress = show,
 		.context = &progress,
 	};
 	double began = progress_clock();
-	struct result *result = makers[f](&setup, error);
+	struct result *result = figures[f].make(&setup, error);
 	progress_end(&progress);
 	if (!result) return refuse("%s: %s", figures[f].name, error);
 	snprintf(command, sizeof command, "touchstone reproduce %s %s --seed %" PRIu64, figures[f].name,
@@ -105,6 +111,7 @@ static int make(int f, const struct arguments *arguments)
 	bool written = result_write(result, arguments->results, error);
 	result_free(result);
 	if (!written) return refuse("%s", error);
+	if (!interrupted()) campaign_forget(figures[f].name, arguments->results);
 	fprintf(stderr, "%s: %s in %.1f s, stored as %s/%s.json\n", figures[f].name,
 			interrupted() ? "interrupted" : "measured", seconds, arguments->results, figures[f].name);
 	return STATUS_WELL;
@@ -118,8 +125,7 @@ int command_reproduce(int argc, char **argv)
 		.parser = parse,
 		.args_doc = "FIGURE... | all",
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
-			   "Figures: fig3 (separations at impact), fig7 (the bouncing ball), states (the 2016 paper's wells and "
-			   "shoulders).\n"
+			   "Figures: all, or those that `touchstone list figures` has.\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
 			   "incomplete.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",

@@ -16,7 +16,7 @@
 static const double default_meetings = 100; /* collisions per particle, where nothing limits a run */
 
 /* Options without a letter; the first ones are scene keys of the same name. */
-enum { ARITHMETIC = 256, METHOD, EVENTS, TIME, SEED, SET, EXPLAIN, JSON, XYZ, MEASURE, RUNS, THREADS, CASES };
+enum { ARITHMETIC = 256, METHOD, EVENTS, TIME, SEED, SET, EXPLAIN, JSON, XYZ, MEASURE, AGAINST, RUNS, THREADS, CASES };
 
 static const struct argp_option options[] = {
 	{"arithmetic", ARITHMETIC, "A", 0,
@@ -32,8 +32,13 @@ static const struct argp_option options[] = {
 	 "Override any key of the scene, such as density=0.9; may be repeated, the last one counts", 1},
 	{"explain", EXPLAIN, 0, 0, "First say what is modelled and what is left out. With --events 0, say only that", 2},
 	{"measure", MEASURE, "LIST", 0,
-	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum), states (pairs whose "
-	 "positions contradict their tracked state, and whether the method is misled by them)",
+	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum), three-body (contacts "
+	 "after which a particle overlaps its partner and a third), states (pairs whose positions contradict their "
+	 "tracked state, and whether the method is misled by them)",
+	 2},
+	{"against", AGAINST, "A", 0,
+	 "Run the same start in the finer arithmetic A as well, such as mpfr:256, and say for how many events this run can "
+	 "be trusted: until the two sequences of events first differ",
 	 2},
 	{"json", JSON, "FILE", 0, "Write what came of it as JSON; - for standard output, instead of the table", 2},
 	{"xyz", XYZ, "FILE", 0, "Write the particles at the end as extended XYZ", 2},
@@ -43,8 +48,8 @@ static const struct argp_option options[] = {
 	{0}};
 
 struct wish {
-	const char *scene, *json, *xyz, *folder;
-	bool explain, impact, conservation, states;
+	const char *scene, *json, *xyz, *folder, *against;
+	bool explain, impact, conservation, three_body, states;
 	uint64_t runs, threads;
 	char **settings; /* KEY=VALUE, each from malloc */
 	size_t setting_count;
@@ -60,7 +65,7 @@ static void add_setting(struct wish *wish, const char *key, const char *value)
 
 static void choose_measures(struct wish *wish, char *list)
 {
-	char *const names[] = {"impact", "conservation", "states", NULL};
+	char *const names[] = {"impact", "conservation", "three-body", "states", NULL};
 	while (*list) {
 		char *word = list, *value;
 		switch (getsubopt(&list, names, &value)) {
@@ -71,10 +76,13 @@ static void choose_measures(struct wish *wish, char *list)
 			wish->conservation = true;
 			break;
 		case 2:
+			wish->three_body = true;
+			break;
+		case 3:
 			wish->states = true;
 			break;
 		default:
-			refuse_option("measure", word, "impact, conservation, states, or several with commas");
+			refuse_option("measure", word, "impact, conservation, three-body, states, or several with commas");
 		}
 	}
 }
@@ -95,6 +103,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case EXPLAIN:
 		wish->explain = true;
+		return 0;
+	case AGAINST:
+		wish->against = argument;
 		return 0;
 	case JSON:
 		wish->json = argument;
@@ -149,7 +160,8 @@ static json_t *explain(const struct scene_file *file, FILE *stream, char error[S
 /* Makes all runs; several at a time, each in its own engine. */
 static void make_runs(const struct run_plan *plan, const struct wish *wish, struct outcome *outcomes)
 {
-	struct simulation_progress progress = {progress_begin(plan->file->name, "events"), 0, (unsigned)wish->runs};
+	struct simulation_progress progress = {.line = progress_begin(plan->file->name, "events"),
+										   .runs = (unsigned)wish->runs};
 	interrupt_watch();
 #pragma omp parallel for schedule(dynamic, 1) num_threads((int)wish->threads)
 	for (uint64_t run = 0; run < wish->runs; run++)
@@ -198,6 +210,9 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 						  (unsigned long long)(INT64_MAX - wish->runs));
 		return refuse("%s", error);
 	}
+	char reason[160];
+	if (wish->against && !horizon_possible(file->arithmetic, wish->against, reason))
+		return refuse("--against: %s", reason);
 	struct touchstone_limits limits = file->limits;
 	if (!limited(file)) limits.events = course_events(default_meetings, file->recipe.particle_count);
 	const struct run_plan plan = {
@@ -208,8 +223,10 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		.setting_count = wish->setting_count,
 		.impact = wish->impact,
 		.conservation = wish->conservation,
+		.three_body = wish->three_body,
 		.states = wish->states,
 		.xyz = wish->xyz,
+		.against = wish->against,
 	};
 	json_t *explained = NULL;
 	FILE *stream = wish->json && strcmp(wish->json, "-") == 0 ? stderr : stdout;
@@ -265,9 +282,13 @@ int command_run(int argc, char **argv)
 			"its name.\v"
 			"Verdicts: done, a limit was reached or no event is left; collapsed, events go on but time does not; "
 			"halted, the method has no answer; diverged, a number is no longer finite; interrupted, by Ctrl-C.\n\n"
+			"With --against both arithmetics are given the same start: after equilibration the run begins anew, a "
+			"moment "
+			"later, from its state rounded to doubles. Without equilibration it is the run that it is without.\n\n"
 			"Exit status: 0 done or collapsed; 1 halted or diverged; 2 bad input; 130 interrupted, and what was done "
 			"by then is told all the same.\n\n"
-			"Example: touchstone run hard-spheres --set density=0.9 --events 1e6 --measure impact --json -",
+			"Example: touchstone run hard-spheres --set density=0.9 --events 1e6 --measure impact --json -\n"
+			"         touchstone run mixture --against mpfr:256",
 	};
 	struct wish wish = {.runs = 1, .threads = 1, .settings = calloc((size_t)argc, sizeof(char *))};
 	if (!wish.settings) return refuse("out of memory");

@@ -2,9 +2,19 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "command/interrupt.h"
 #include "measure/course.h"
+
+/* Makes the engine for the scene as it is. */
+static bool make_engine(struct simulation *simulation, const struct scene_file *file, char error[STORE_ERROR])
+{
+	char reason[160];
+	simulation->engine = touchstone_create(&simulation->scene, file->arithmetic, file->method, reason);
+	if (!simulation->engine) snprintf(error, STORE_ERROR, "%.200s: %s", file->name, reason);
+	return simulation->engine;
+}
 
 bool simulation_open(struct simulation *simulation, const struct scene_file *file, uint64_t seed,
 					 char error[STORE_ERROR])
@@ -12,12 +22,41 @@ bool simulation_open(struct simulation *simulation, const struct scene_file *fil
 	struct scene_file seeded = *file; /* for reading only */
 	seeded.seed = seed;
 	if (!scene_file_build(&seeded, &simulation->scene, error)) return false;
-	char reason[160];
-	simulation->engine = touchstone_create(&simulation->scene, file->arithmetic, file->method, reason);
-	if (simulation->engine) return true;
-	snprintf(error, STORE_ERROR, "%.200s: %s", file->name, reason);
+	if (make_engine(simulation, file, error)) return true;
 	scene_free(&simulation->scene);
 	return false;
+}
+
+/* At the last event two particles touch, or are at a step, and rounding could put them on either side of it: some time
+ * later, as it passes between two events, none do. */
+static void fly_on(struct touchstone_engine *engine, double begun)
+{
+	struct touchstone_status status;
+	touchstone_status(engine, &status);
+	double later = status.time + (status.time - begun) / (double)(status.events + 1);
+	touchstone_run(engine, &(struct touchstone_limits){UINT64_MAX, later, interrupt_flag()}, NULL);
+}
+
+bool simulation_begin_anew(struct simulation *simulation, const struct scene_file *file, char error[STORE_ERROR])
+{
+	struct touchstone_scene *scene = &simulation->scene;
+	struct touchstone_particle *particles = malloc(scene->particle_count * sizeof *particles);
+	if (!particles) {
+		snprintf(error, STORE_ERROR, "%.200s: no memory for %zu particles", file->name, scene->particle_count);
+		return false;
+	}
+	fly_on(simulation->engine, scene->clock);
+	for (uint32_t p = 0; p < scene->particle_count; p++) {
+		particles[p].species = scene->particles[p].species;
+		touchstone_state(simulation->engine, p, particles[p].position, particles[p].velocity);
+	}
+	struct touchstone_status status;
+	touchstone_status(simulation->engine, &status);
+	touchstone_destroy(simulation->engine);
+	free((void *)scene->particles);
+	scene->particles = particles;
+	scene->clock = status.time;
+	return make_engine(simulation, file, error);
 }
 
 void simulation_close(struct simulation *simulation)
@@ -62,8 +101,11 @@ static void report(void *context, uint64_t more, const struct touchstone_status 
 #pragma omp critical(simulation_progress)
 	{
 		progress->done += (double)more;
-		progress_show(&progress->line, progress->done,
-					  (reporter->besides + expected(reporter, now->time)) * progress->runs);
+		double total = (reporter->besides + expected(reporter, now->time)) * progress->runs;
+		if (progress->tell)
+			progress->tell(progress->context, progress->done, total);
+		else
+			progress_show(&progress->line, progress->done, total);
 	}
 }
 
@@ -76,4 +118,17 @@ bool simulation_advance(struct simulation *simulation, const struct touchstone_l
 	struct reporter reporter = {progress, limits, (double)besides, begun.time, 0};
 	struct watch watch = {interrupt_flag(), progress ? report : NULL, &reporter};
 	return course_run(simulation->engine, limits, observer, &watch);
+}
+
+bool simulation_horizon(const struct simulation *simulation, const struct scene_file *file, const char *against,
+						const struct touchstone_limits *limits, struct simulation_progress *progress, uint64_t besides,
+						struct horizon *horizon, char error[STORE_ERROR])
+{
+	struct reporter reporter = {progress, limits, (double)besides, simulation->scene.clock, 0};
+	struct watch watch = {interrupt_flag(), progress ? report : NULL, &reporter};
+	char reason[160];
+	bool found =
+		horizon_find(&simulation->scene, file->method, file->arithmetic, against, limits, &watch, horizon, reason);
+	if (!found) snprintf(error, STORE_ERROR, "%.200s: %s", file->name, reason);
+	return found;
 }

@@ -3,6 +3,7 @@
 #define VERIFY_SIMULATION_H
 
 #include "command/progress.h"
+#include "measure/horizon.h"
 #include "store/scene_file.h"
 
 struct simulation {
@@ -16,6 +17,10 @@ bool simulation_open(struct simulation *simulation, const struct scene_file *fil
 					 char error[STORE_ERROR]);
 void simulation_close(struct simulation *simulation);
 
+/* Begins once more from the state that the engine is in, a moment later, rounded to doubles, so that an engine in any
+ * arithmetic can be given the same start. Its clock runs on, its counts begin anew. False with a message. */
+bool simulation_begin_anew(struct simulation *simulation, const struct scene_file *file, char error[STORE_ERROR]);
+
 /* Whether the arithmetic and the method that `file` names exist; false with a message that says where they were named.
  */
 bool simulation_names(const struct scene_file *file, char error[STORE_ERROR]);
@@ -25,6 +30,9 @@ struct simulation_progress {
 	struct progress line;
 	double done;   /* events */
 	unsigned runs; /* how many are to be made */
+	/* Told in place of the line what is done of how many events; or NULL. */
+	void (*tell)(void *context, double done, double total);
+	void *context;
 };
 
 /* Runs until a limit is reached or the verdict is no longer DONE: true; or until an end is asked for: false. `besides`
@@ -33,5 +41,11 @@ struct simulation_progress {
 bool simulation_advance(struct simulation *simulation, const struct touchstone_limits *limits,
 						const struct touchstone_observer *observer, struct simulation_progress *progress,
 						uint64_t besides);
+
+/* The horizon of a simulation that has only begun, against a finer arithmetic; progress as above. The engine stays
+ * where it is. False with a message. */
+bool simulation_horizon(const struct simulation *simulation, const struct scene_file *file, const char *against,
+						const struct touchstone_limits *limits, struct simulation_progress *progress, uint64_t besides,
+						struct horizon *horizon, char error[STORE_ERROR]);
 
 #endif

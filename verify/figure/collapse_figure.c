@@ -1,8 +1,8 @@
 /* Section 5 and figure 7 of the 2014 paper: a ball comes to rest on a plate, or does not. */
 #include "figure/figure.h"
 
+#include "campaign/campaign.h"
 #include "measure/collapse.h"
-#include "measure/course.h"
 #include "measure/interval.h"
 #include <math.h>
 #include <stdlib.h>
@@ -24,27 +24,44 @@ static const struct rung {
 };
 enum { RUNGS = sizeof ladder / sizeof *ladder };
 
-struct parts {
+/* The pieces: all variants in binary64, then each order of evaluation on each rung. */
+enum { PIECES = VARIANTS + RUNGS * ORDERS };
+
+struct sizes {
 	const struct figure_setup *setup;
-	int done, all;
+	uint64_t plates, ladder_plates;
 };
 
-static void one_done(struct parts *parts)
+static struct collapse_setup piece_setup(const struct sizes *sizes, size_t piece)
 {
-#pragma omp critical(figure_progress)
-	if (parts->setup->progress) parts->setup->progress(parts->setup->context, (double)++parts->done / parts->all);
-}
-
-static struct collapse_setup base(const struct figure_setup *setup)
-{
-	return (struct collapse_setup){.arithmetic = "binary64",
-								   .method = "stable",
+	bool variant = piece < VARIANTS;
+	const struct rung *rung = variant ? &(struct rung){"binary64", 53} : &ladder[(piece - VARIANTS) / ORDERS];
+	return (struct collapse_setup){.arithmetic = rung->arithmetic,
+								   .method = variant ? methods[piece / ORDERS] : "stable",
+								   .order = (unsigned)(piece % ORDERS), /* VARIANTS is a multiple of it */
 								   .gravity = gravity,
 								   .restitution = restitution,
-								   .seed = setup->seed,
-								   .bits = 53,
+								   .plates = variant ? sizes->plates : sizes->ladder_plates,
+								   .seed = sizes->setup->seed,
+								   .bits = rung->bits,
 								   .most = patience,
-								   .stop = setup->stop};
+								   .stop = sizes->setup->stop};
+}
+
+static void piece_key(void *context, size_t piece, char key[CAMPAIGN_KEY])
+{
+	struct collapse_setup one = piece_setup(context, piece);
+	snprintf(key, CAMPAIGN_KEY, "arithmetic=%s method=%s order=%u plates=%llu seed=%llu", one.arithmetic, one.method,
+			 one.order, (unsigned long long)one.plates, (unsigned long long)one.seed);
+}
+
+static json_t *make_piece(void *context, size_t piece, const struct campaign_watch *watch, char error[CAMPAIGN_ERROR])
+{
+	struct collapse_setup one = piece_setup(context, piece);
+	struct collapse collapse;
+	one.stop = watch->stop;
+	if (!collapse_measure(&one, &collapse, error) || collapse.plates < one.plates) return NULL;
+	return collapse_json(&collapse);
 }
 
 /* ------------------------------------------------------------------ orders of evaluation */
@@ -184,7 +201,7 @@ static void draw_flight(void *context, double time, double gap, double speed)
 	(void)gap;
 }
 
-static bool add_trajectory(struct result *result, const struct figure_setup *setup, char error[512])
+static bool add_trajectory(struct result *result, char error[512])
 {
 	static const char *const columns[] = {"time", "height", "remaining", NULL};
 	struct touchstone_drop drop = {{0}, gravity, restitution, 2, 70};
@@ -218,7 +235,6 @@ static bool add_trajectory(struct result *result, const struct figure_setup *set
 	}
 	result_note(result, "Height over time is drawn for the plate at %a, where naive halts after %llu events.",
 				drop.plate[0], (unsigned long long)landing.events);
-	(void)setup;
 	return true;
 }
 
@@ -273,51 +289,39 @@ static void add_scaling(struct result *result, struct collapse rung[RUNGS][ORDER
 
 struct result *figure_collapse(const struct figure_setup *setup, char error[512])
 {
-	struct collapse(*rung)[ORDERS] = calloc(RUNGS, sizeof *rung);
-	struct collapse variant[VARIANTS] = {0};
+	struct sizes sizes = {setup, setup->full ? 1000000 : 100000, setup->full ? 2000 : 200};
+	const struct campaign campaign = {"fig7", PIECES, piece_key, NULL, make_piece, &sizes};
+	json_t *results = campaign_run(&campaign,
+								   &(struct campaign_setup){.folder = setup->folder,
+															.this_revision = true,
+															.threads = setup->threads,
+															.stop = setup->stop,
+															.progress = setup->progress,
+															.context = setup->context},
+								   error);
+	if (!results) return NULL;
+	struct collapse piece[PIECES]; /* those that were not finished have no plates */
+	for (int p = 0; p < PIECES; p++) piece[p] = collapse_of_json(json_array_get(results, (size_t)p));
+	size_t finished = campaign_finished(results);
+	json_decref(results);
+
 	struct result *result = result_new("fig7", "A ball comes to rest on a plate");
-	uint64_t plates = setup->full ? 1000000 : 100000, ladder_plates = setup->full ? 2000 : 200;
-	struct parts parts = {setup, 0, VARIANTS + RUNGS * ORDERS};
-	bool good = rung && result;
-	if (!good) snprintf(error, 512, "not enough memory");
-#pragma omp parallel for schedule(dynamic, 1) num_threads(setup->threads)
-	for (int v = 0; v < VARIANTS; v++) {
-		struct collapse_setup one = base(setup);
-		one.method = methods[v / ORDERS];
-		one.order = (unsigned)(v % ORDERS);
-		one.plates = plates;
-		char wrong[160];
-		if (good) collapse_measure(&one, &variant[v], wrong); /* the names are ours: nothing can be wrong with them */
-		one_done(&parts);
-	}
-#pragma omp parallel for schedule(dynamic, 1) num_threads(setup->threads) collapse(2)
-	for (int r = RUNGS - 1; r >= 0; r--)
-		for (int order = 0; order < ORDERS; order++) {
-			struct collapse_setup one = base(setup);
-			one.arithmetic = ladder[r].arithmetic;
-			one.bits = ladder[r].bits;
-			one.order = (unsigned)order;
-			one.plates = ladder_plates;
-			char wrong[160];
-			if (good) collapse_measure(&one, &rung[r][order], wrong);
-			one_done(&parts);
-		}
-	bool stopped = setup->stop && *setup->stop, any = good && variant[VARIANTS - 1].plates && variant[0].plates;
-	if (good) {
-		result_paragraph(
-			result,
-			"A ball of diameter 1 falls from rest at one diameter over a plate and bounces with restitution "
-			"1/2 under g = -1. Exactly, it rests after infinitely many bounces at t = sqrt(2h/|g|)(1+e)/(1-e) "
-			"= 3. What it does in floating point hangs on where the plate is, on the method, and on the order in "
-			"which the formulas are evaluated: %llu plates for each.",
-			(unsigned long long)plates);
-		if (any) add_claims(result, variant);
-		good = add_trajectory(result, setup, error);
-		if (any) add_variants(result, variant);
-		add_scaling(result, rung, ladder_plates);
-		if (stopped) result_incomplete(result, "interrupted; plates that were not dropped are missing from the counts");
-	}
-	free(rung);
+	bool all = true;
+	for (int v = 0; v < VARIANTS; v++) all = all && piece[v].plates > 0;
+	if (!result) return snprintf(error, 512, "not enough memory"), NULL;
+	result_paragraph(result,
+					 "A ball of diameter 1 falls from rest at one diameter over a plate and bounces with restitution "
+					 "1/2 under g = -1. Exactly, it rests after infinitely many bounces at t = sqrt(2h/|g|)(1+e)/(1-e) "
+					 "= 3. What it does in floating point hangs on where the plate is, on the method, and on the order "
+					 "in which the formulas are evaluated: %llu plates for each.",
+					 (unsigned long long)sizes.plates);
+	if (all) add_claims(result, piece);
+	bool good = add_trajectory(result, error);
+	if (all) add_variants(result, piece);
+	add_scaling(result, (struct collapse(*)[ORDERS])(piece + VARIANTS), sizes.ladder_plates);
+	if (finished < PIECES)
+		result_incomplete(result, "interrupted after %zu of %d measurements; the next call goes on from there",
+						  finished, PIECES);
 	if (good) return result;
 	result_free(result);
 	return NULL;

@@ -9,6 +9,7 @@ struct figure_setup {
 	bool full; /* the papers' own sizes; otherwise what takes minutes */
 	uint64_t seed;
 	int threads;              /* runs side by side; the numbers do not depend on it */
+	const char *folder;       /* where finished pieces are kept until the figure is whole; NULL: nowhere */
 	const volatile int *stop; /* non-zero: come to an end with what is done */
 	/* Told how much of the whole is done, from one thread at a time; may be NULL. */
 	void (*progress)(void *context, double part);
@@ -16,8 +17,12 @@ struct figure_setup {
 };
 
 /* Each returns a finished result that the caller frees, or NULL with one line in `error`. */
-struct result *figure_impact(const struct figure_setup *setup, char error[512]);   /* 2014, fig. 3 */
-struct result *figure_collapse(const struct figure_setup *setup, char error[512]); /* 2014, section 5 and fig. 7 */
-struct result *figure_states(const struct figure_setup *setup, char error[512]);   /* 2016, section 5 */
+struct result *figure_impact(const struct figure_setup *setup, char error[512]);     /* 2014, fig. 3 */
+struct result *figure_three_body(const struct figure_setup *setup, char error[512]); /* 2014, fig. 5 */
+struct result *figure_collapse(const struct figure_setup *setup, char error[512]);   /* 2014, section 5 and fig. 7 */
+struct result *figure_ladder(const struct figure_setup *setup, char error[512]);     /* precision ladder */
+struct result *figure_horizon(const struct figure_setup *setup, char error[512]);    /* for how long a run is trusted */
+struct result *figure_time_place(const struct figure_setup *setup, char error[512]); /* late times, far places */
+struct result *figure_states(const struct figure_setup *setup, char error[512]);     /* 2016, section 5 */
 
 #endif

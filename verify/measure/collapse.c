@@ -1,5 +1,6 @@
 #include "measure/collapse.h"
 
+#include "campaign/campaign.h"
 #include "scene/random.h"
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
@@ -93,4 +94,31 @@ bool collapse_measure(const struct collapse_setup *setup, struct collapse *colla
 	if (collapse->halted) collapse->events_to_halt /= (double)collapse->halted;
 	if (collapse->rested) collapse->events_to_rest /= (double)collapse->rested;
 	return true;
+}
+
+json_t *collapse_json(const struct collapse *collapse)
+{
+	return json_pack("{s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "plates", (json_int_t)collapse->plates, "halted",
+					 (json_int_t)collapse->halted, "rested", (json_int_t)collapse->rested, "events_to_halt",
+					 campaign_number(collapse->events_to_halt), "events_to_rest",
+					 campaign_number(collapse->events_to_rest), "largest_error",
+					 campaign_number(collapse->largest_error), "worst_plate", campaign_number(collapse->worst_plate),
+					 "median_error", campaign_number(collapse->median_error), "deepest",
+					 campaign_number(collapse->deepest));
+}
+
+struct collapse collapse_of_json(const json_t *json)
+{
+	if (!json_is_object(json)) return (struct collapse){0};
+	return (struct collapse){
+		.plates = (uint64_t)json_integer_value(json_object_get(json, "plates")),
+		.halted = (uint64_t)json_integer_value(json_object_get(json, "halted")),
+		.rested = (uint64_t)json_integer_value(json_object_get(json, "rested")),
+		.events_to_halt = campaign_value(json, "events_to_halt"),
+		.events_to_rest = campaign_value(json, "events_to_rest"),
+		.largest_error = campaign_value(json, "largest_error"),
+		.worst_plate = campaign_value(json, "worst_plate"),
+		.median_error = campaign_value(json, "median_error"),
+		.deepest = campaign_value(json, "deepest"),
+	};
 }

@@ -3,6 +3,8 @@
 #ifndef VERIFY_COLLAPSE_H
 #define VERIFY_COLLAPSE_H
 
+#include <jansson.h>
+
 #include "touchstone.h"
 
 struct collapse {
@@ -28,6 +30,10 @@ struct collapse_setup {
 
 /* Drops the balls. False, with one line in `error`, for unknown names. */
 bool collapse_measure(const struct collapse_setup *setup, struct collapse *collapse, char error[160]);
+
+/* The same as JSON that keeps every bit, owned by the caller; and back, all 0 for what is no object. */
+json_t *collapse_json(const struct collapse *collapse);
+struct collapse collapse_of_json(const json_t *json);
 
 /* Error of a landing's time against sqrt(2 h / |g|) (1 + e) / (1 - e), h being the true height it fell from in the
  * working arithmetic: the difference is taken with enough bits and rounded once. */

@@ -42,15 +42,15 @@ static bool agree(struct horizon *horizon, const struct runner *here, const stru
 	size_t most = here->count < there->count ? here->count : there->count, k = 0;
 	for (; k < most && same(&here->event[k], &there->event[k]); k++) {
 		horizon->events++;
-		horizon->per_particle += (here->event[k].kind == TOUCHSTONE_CONTACT ? 2.0 : 1.0) / particles;
+		horizon->per_particle += (here->event[k].kind == TOUCHSTONE_WALL ? 1.0 : 2.0) / particles;
 		horizon->time = there->time[k];
 	}
 	if (k == here->count && k == there->count) return true;
 	horizon->differ = true;
 	horizon->here_ends = k == here->count;
 	horizon->there_ends = k == there->count;
-	if (!horizon->here_ends) horizon->here = here->event[k];
-	if (!horizon->there_ends) horizon->there = there->event[k];
+	if (!horizon->here_ends) horizon->here = here->event[k], horizon->here_time = here->time[k];
+	if (!horizon->there_ends) horizon->there = there->event[k], horizon->there_time = there->time[k];
 	return false;
 }
 
@@ -89,20 +89,25 @@ int horizon_bits(const char *arithmetic, char error[160])
 	return status.bits;
 }
 
+bool horizon_possible(const char *arithmetic, const char *reference, char error[160])
+{
+	int bits = horizon_bits(arithmetic, error), finer = bits ? horizon_bits(reference, error) : 0;
+	if (!bits || !finer) return false;
+	if (finer > bits || strcmp(arithmetic, reference) == 0) return true;
+	snprintf(error, 160, "%.40s carries %d bits, no more than the %d of %.40s; accepted: a finer arithmetic", reference,
+			 finer, bits, arithmetic);
+	return false;
+}
+
 bool horizon_find(const struct touchstone_scene *scene, const char *method, const char *arithmetic,
 				  const char *reference, const struct touchstone_limits *limits, const struct watch *watch,
 				  struct horizon *horizon, char error[160])
 {
 	*horizon = (struct horizon){0};
-	int bits = horizon_bits(arithmetic, error), finer = bits ? horizon_bits(reference, error) : 0;
-	if (!bits || !finer) return false;
-	if (finer <= bits && strcmp(arithmetic, reference) != 0) {
-		snprintf(error, 160, "%.40s carries %d bits, no more than the %d of %.40s; accepted: a finer arithmetic",
-				 reference, finer, bits, arithmetic);
-		return false;
-	}
+	if (!horizon_possible(arithmetic, reference, error)) return false;
+	unsigned bits = (unsigned)horizon_bits(arithmetic, error);
 	struct touchstone_scene shared = *scene; /* with places of one size in both */
-	if (!shared.grain || shared.grain > (unsigned)bits) shared.grain = (unsigned)bits;
+	if (!shared.grain || shared.grain > bits) shared.grain = bits;
 	struct runner here = {.engine = touchstone_create(&shared, arithmetic, method, error)};
 	struct runner there = {.engine = here.engine ? touchstone_create(&shared, reference, method, error) : NULL};
 	if (there.engine) follow(&here, &there, limits, watch, horizon);

@@ -17,17 +17,22 @@ struct horizon_event {
 
 struct horizon {
 	uint64_t events;     /* both sequences have these in common */
-	double per_particle; /* of them, those that a mean particle takes part in: a contact counts for two particles */
+	double per_particle; /* of them, those that a mean particle takes part in: an event of a pair counts for two
+							particles */
 	double time;         /* of the last one */
 	bool differ;         /* false: all events that the limits allow, so that the horizon lies further on */
 	bool stopped;        /* by the watch, before a difference was found */
 	struct horizon_event here, there; /* when they differ, the events that do, in the arithmetic and in the finer one */
+	double here_time, there_time;     /* and when they happen */
 	bool here_ends, there_ends;       /* or one of the two has none: its engine has come to its end */
 };
 
+/* Whether two arithmetics can be held against one another: the finer one must carry more bits, unless it is the same.
+ * False with one line in `error`, also for names that there are not. */
+bool horizon_possible(const char *arithmetic, const char *reference, char error[160]);
+
 /* Runs both engines side by side. The watch is told of each event of the coarser one. False with one line in `error`
- * when one of the engines cannot be made, or `reference` does not carry more bits than `arithmetic`, unless it is the
- * same. */
+ * when one of the engines cannot be made, or the arithmetics are not possible. */
 bool horizon_find(const struct touchstone_scene *scene, const char *method, const char *arithmetic,
 				  const char *reference, const struct touchstone_limits *limits, const struct watch *watch,
 				  struct horizon *horizon, char error[160]);

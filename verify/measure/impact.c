@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "measure/separation.h"
+#include "overlap/excess.h"
 
 void impact_begin(struct impact *impact, int bits)
 {
@@ -19,6 +19,11 @@ static void enter(struct impact_histogram *histogram, double steps, double exces
 	histogram->bar[IMPACT_REACH + (int)bar]++;
 	histogram->below += excess < 0;
 	histogram->above += excess > 0;
+	int doublings;
+	frexp(excess, &doublings);
+	histogram->doubling[!(excess < 0)][doublings < 0                  ? 0
+									   : doublings < IMPACT_DOUBLINGS ? doublings
+																	  : IMPACT_DOUBLINGS - 1]++;
 	histogram->sum += excess;
 	histogram->sum_of_squares += excess * excess;
 	histogram->least = fmin(histogram->least, excess);
@@ -39,8 +44,7 @@ static double ulp_of(double contact, int bits)
 	return ldexp(1, exponent - bits);
 }
 
-/* Whether an excess known to within 2^-30 ulp, as that in double-double is for up to 53 bits, leaves its bar and its
- * sign in no doubt. */
+/* Whether an excess known to within 2^-30 ulp leaves its bar and its sign in no doubt. */
 static bool settled(double steps)
 {
 	double doubt = 0x1p-30, from_half = fabs(fabs(steps - rint(steps)) - 0.5);
@@ -59,11 +63,11 @@ void impact_see(void *context, struct touchstone_engine *engine, const struct to
 	double steps = (double)event->steps;
 	enter(&impact->measured, steps, steps < 0 ? steps / finer : steps);
 
-	double excess = impact->bits <= 53 ? separation_excess_twin(terms, count, contact) / ulp : NAN;
+	double excess = impact->bits <= 53 ? excess_quick(terms, count, distance) / ulp : NAN;
 	double exact_steps = excess < 0 ? excess * finer : excess;
 	if (impact->bits > 53 || !settled(exact_steps)) {
 		impact->forced++;
-		excess = separation_excess_exact(terms, count, distance) / ulp;
+		excess = excess_exact(terms, count, distance) / ulp;
 		exact_steps = excess < 0 ? excess * finer : excess;
 	}
 	enter(&impact->exact, rint(exact_steps), excess);
@@ -72,6 +76,8 @@ void impact_see(void *context, struct touchstone_engine *engine, const struct to
 static void histogram_merge(struct impact_histogram *into, const struct impact_histogram *from)
 {
 	for (int bar = 0; bar <= 2 * IMPACT_REACH; bar++) into->bar[bar] += from->bar[bar];
+	for (int side = 0; side < 2; side++)
+		for (int k = 0; k < IMPACT_DOUBLINGS; k++) into->doubling[side][k] += from->doubling[side][k];
 	into->below += from->below;
 	into->above += from->above;
 	into->sum += from->sum;

@@ -6,13 +6,18 @@
 
 #include "touchstone.h"
 
-enum { IMPACT_REACH = 256 }; /* separations further off are counted at the ends */
+enum {
+	IMPACT_REACH = 256, /* separations further off are counted at the ends */
+	IMPACT_DOUBLINGS = 64
+};
 
 /* One of the two ways of knowing the separation. */
 struct impact_histogram {
 	uint64_t bar[2 * IMPACT_REACH + 1]; /* [IMPACT_REACH]: at the contact distance itself */
 	uint64_t below, above;              /* strictly, whatever the bar */
-	double sum, sum_of_squares;         /* of the separation less contact, in units of ulp above contact */
+	uint64_t doubling[2]
+					 [IMPACT_DOUBLINGS]; /* below contact, and at or above it: by less than 1 ulp, 1 to 2, 2 to 4 ... */
+	double sum, sum_of_squares;          /* of the separation less contact, in units of ulp above contact */
 	double least, most;
 };
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "measure/separation.h"
+#include "overlap/excess.h"
 
 static const uint32_t nobody = UINT32_MAX;
 
@@ -36,16 +36,24 @@ static bool misread_when_found(const struct inconsistency *inconsistency, uint32
 	return a->event >= b->event ? a->misread == second : b->misread == first;
 }
 
+/* During an observer's call: whether the pair whose event or test it is stands within its distance, exactly; at it, it
+ * does not. */
+static bool stands_within(const struct touchstone_engine *engine)
+{
+	double terms[3][3 * TOUCHSTONE_MOST_TERMS], distance[TOUCHSTONE_MOST_TERMS];
+	int count = touchstone_separation(engine, terms, distance);
+	return excess_signed(terms, count, distance) < 0;
+}
+
 /* Whether a step's event finds the pair on the side on which its state is not. */
-static bool misplaced(const struct inconsistency *inconsistency, const struct touchstone_engine *engine,
-					  const struct touchstone_event *event)
+static bool misplaced(const struct touchstone_engine *engine, const struct touchstone_event *event)
 {
 	bool at_step =
 		event->kind == TOUCHSTONE_CAPTURE || event->kind == TOUCHSTONE_RELEASE || event->kind == TOUCHSTONE_BOUNCE;
 	if (!at_step) return false;
 	bool belongs_inside =
 		event->kind == TOUCHSTONE_RELEASE || (event->kind == TOUCHSTONE_BOUNCE && event->approach < 0);
-	return separation_within(engine, inconsistency->bits) != belongs_inside;
+	return stands_within(engine) != belongs_inside;
 }
 
 void inconsistency_see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
@@ -57,7 +65,7 @@ void inconsistency_see(void *context, struct touchstone_engine *engine, const st
 	inconsistency->met[0] = event->first;
 	inconsistency->met[1] = pair ? event->second : nobody;
 	if (pair) {
-		inconsistency->count[INCONSISTENT_EXECUTED] += misplaced(inconsistency, engine, event);
+		inconsistency->count[INCONSISTENT_EXECUTED] += misplaced(engine, event);
 		inconsistency->count[INCONSISTENT_FOUND] += misread_when_found(inconsistency, event->first, event->second);
 	}
 	for (int p = 0; p < 1 + pair; p++) {
@@ -72,7 +80,7 @@ static int read_state(const struct inconsistency *inconsistency, const struct to
 					  const struct touchstone_test *test)
 {
 	if (fabs(test->excess) > ldexp(16, -inconsistency->bits)) return test->within;
-	return separation_within(engine, inconsistency->bits) ? test->step + 1 : test->step;
+	return stands_within(engine) ? test->step + 1 : test->step;
 }
 
 /* Which kind a test is: whose event it follows. */

@@ -13,8 +13,9 @@ static char *folder; /* for this program's files */
 static void every_command_helps(void **state)
 {
 	(void)state;
-	static const char *const commands[] = {"", "list ", "run ", "reproduce ", "grade ", "chart ", "replay ", "report "};
-	for (int c = 0; c < 8; c++) {
+	static const char *const commands[] = {"",       "list ",   "run ",      "reproduce ", "grade ",
+										   "chart ", "replay ", "campaign ", "merge ",     "report "};
+	for (size_t c = 0; c < sizeof commands / sizeof *commands; c++) {
 		struct said help = program_run("%s--help", commands[c]), version = program_run("%s--version", commands[c]);
 		char usage[64];
 		snprintf(usage, sizeof usage, "Usage: touchstone %s[OPTION...]", commands[c]);
@@ -102,7 +103,7 @@ static void bad_usage_is_one_line(void **state)
 	static const struct {
 		const char *arguments, *words;
 	} wrong[] = {
-		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, replay, report"},
+		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, replay, campaign"},
 		{"run", "no scene"},
 		{"run cradle column", "second scene"},
 		{"run nowhere.yaml", "nowhere.yaml: no such file"},

@@ -185,6 +185,29 @@ static void walls_count_once_and_ends_are_no_difference(void **state)
 	assert_true(walled.per_particle == (2 + 1 + 1) / 2.0); /* a contact, then each at its wall */
 }
 
+/* So does every event at a step of a potential: two particles go into their well, collide, come out. */
+static void an_event_of_a_pair_counts_twice(void **state)
+{
+	(void)state;
+	const struct touchstone_particle particles[2] = {{{-2.25, 0, 0}, {1, 0, 0}, 0}, {{2.25, 0, 0}, {-0.5, 0, 0}, 0}};
+	const struct touchstone_species ball = {1, 1};
+	const struct touchstone_step well = {2, -0.25};
+	const struct touchstone_potential potential = {{0, 0}, 1, {TOUCHSTONE_CONSTANT, 1}, 1, &well};
+	struct touchstone_scene scene = {.dimensions = 1,
+									 .particle_count = 2,
+									 .particles = particles,
+									 .species_count = 1,
+									 .species = &ball,
+									 .box = {8},
+									 .restitution = {TOUCHSTONE_CONSTANT, 1},
+									 .potential_count = 1,
+									 .potentials = &potential};
+	struct horizon horizon = horizon_of(&scene, "binary64", "mpfr:128", 10);
+	assert_false(horizon.differ);
+	assert_int_equal(horizon.events, 3);
+	assert_true(horizon.per_particle == 3);
+}
+
 static void a_watch_stops_it_and_is_told(void **state)
 {
 	(void)state;
@@ -260,6 +283,7 @@ int main(void)
 		cmocka_unit_test(the_first_difference_is_there),
 		cmocka_unit_test(finer_arithmetic_is_trusted_longer),
 		cmocka_unit_test(walls_count_once_and_ends_are_no_difference),
+		cmocka_unit_test(an_event_of_a_pair_counts_twice),
 		cmocka_unit_test(a_watch_stops_it_and_is_told),
 		cmocka_unit_test(what_cannot_be_is_said),
 		cmocka_unit_test(a_start_state_is_that_of_the_equilibrated_engine),

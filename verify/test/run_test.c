@@ -106,7 +106,9 @@ static void json_says_all(void **state)
 {
 	(void)state;
 	json_t *json = program_json(
-		program_run(GAS " --events 2000 --arithmetic binary32 --measure conservation,impact --explain --json -"), 0);
+		program_run(GAS
+					" --events 2000 --arithmetic binary32 --measure conservation,impact,three-body --explain --json -"),
+		0);
 	static const char *const texts[] = {"scene",   "arithmetic", "method", "digest",
 										"verdict", "reason",     "title",  "file"};
 	static const char *const numbers[] = {"seed",      "collisions", "events", "wall_seconds", "collisions_per_second",
@@ -136,6 +138,14 @@ static void json_says_all(void **state)
 	json_int_t total = 0;
 	json_array_foreach(json_object_get(exact, "bars"), index, bar) total += json_integer_value(bar);
 	assert_int_equal(total, 2000);
+	const json_t *three_body = json_object_get(json, "three_body");
+	assert_int_equal((int)json_number(three_body, "contacts"), 2000);
+	assert_int_equal((int)json_number(three_body, "overlapping"), (int)json_number(exact, "below"));
+	double rate = json_number(three_body, "rate");
+	const json_t *interval = json_object_get(three_body, "rate_interval");
+	assert_true(rate == json_number(three_body, "events") / 2000);
+	assert_true(json_number_value(json_array_get(interval, 0)) <= rate);
+	assert_true(json_number_value(json_array_get(interval, 1)) > rate);
 	json_decref(json);
 
 	/* The file is what standard output is, and the table is printed beside it. */

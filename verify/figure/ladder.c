@@ -1,0 +1,91 @@
+#include "figure/ladder.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const struct {
+	double restitution, density;
+} gases[LADDER_LANES] = {{1, 0.1}, {1, 0.5}, {0.9, 0.5}, {0.5, 0.5}, {0.3, 0.5}, {1, 0.1}};
+
+/* Events of a point: enough for some fifty three-body events where that is not too much. */
+static const struct rung {
+	const char *arithmetic;
+	int bits;
+	uint64_t quick, full;
+} rungs[LADDER_RUNGS] = {
+	{"short:8", 8, 2000, 100000},        {"short:10", 10, 10000, 1000000},     {"short:12", 12, 40000, 10000000},
+	{"short:14", 14, 100000, 100000000}, {"short:16", 16, 200000, 100000000},  {"short:18", 18, 200000, 100000000},
+	{"short:20", 20, 200000, 100000000}, {"short:22", 22, 200000, 100000000},  {"binary32", 24, 200000, 1000000000},
+	{"short:25", 25, 100000, 100000000}, {"mpfr:25", 25, 10000, 1000000},      {"mpfr:32", 32, 10000, 10000000},
+	{"mpfr:40", 40, 10000, 1000000},     {"binary64", 53, 200000, 1000000000},
+};
+enum { FINEST_LATE = 8 }; /* late clocks stand in for the rungs up to this one */
+
+void ladder_choose(struct ladder *ladder, bool full)
+{
+	for (int lane = 0; lane < LADDER_LANES; lane++)
+		for (int r = 0; r < LADDER_RUNGS; r++) {
+			const struct rung *rung = &rungs[r];
+			struct gas_point *point = &ladder->point[lane * LADDER_RUNGS + r];
+			*point = (struct gas_point){
+				.density = gases[lane].density,
+				.restitution = gases[lane].restitution,
+				.arithmetic = rung->arithmetic,
+				.bits = rung->bits,
+				.particles = full ? 500 : 256,
+				.events = full ? rung->full : rung->quick,
+			};
+			if (!ladder_late(lane)) continue;
+			point->arithmetic = "binary64";
+			point->bits = 53;
+			point->form = TOUCHSTONE_ABSOLUTE;
+			point->clock = ldexp(1, 53 - rung->bits);
+			if (r < 2 || r > FINEST_LATE) point->events = 0;
+		}
+}
+
+const char *ladder_label(const struct ladder *ladder, int lane, char label[64])
+{
+	const struct gas_point *point = &ladder->point[lane * LADDER_RUNGS];
+	snprintf(label, 64, "(%g, %g)%s", point->restitution, point->density, ladder_late(lane) ? ", late clock" : "");
+	return label;
+}
+
+double ladder_bits(const struct gas_point *point)
+{
+	return point->clock > 0 ? point->bits - log2(point->clock) : point->bits;
+}
+
+const char *const ladder_quantities[LADDER_QUANTITIES] = {"three-body events", "three-body encounters",
+														  "repeated events", "entangled pairs"};
+
+uint64_t ladder_count(const struct gas_tally *tally, enum ladder_quantity quantity)
+{
+	const uint64_t counts[LADDER_QUANTITIES] = {tally->three_body.events, tally->three_body.encounters, tally->repeated,
+												tally->entangled};
+	return counts[quantity];
+}
+
+struct rate_fit ladder_fit(const struct ladder *ladder, int lane, enum ladder_quantity quantity)
+{
+	struct rung_count rung[LADDER_RUNGS];
+	size_t used = 0;
+	double events = 0, encounters = 0;
+	for (int r = 0; r < LADDER_RUNGS; r++) {
+		const struct gas_point *point = &ladder->point[lane * LADDER_RUNGS + r];
+		const struct gas_tally *tally = &ladder->tally[lane * LADDER_RUNGS + r];
+		if (ladder_bits(point) >= 53 || !gas_lasted(tally)) continue;
+		rung[used++] =
+			(struct rung_count){ladder_bits(point), (double)tally->three_body.contacts, ladder_count(tally, quantity)};
+		events += (double)tally->three_body.events;
+		encounters += (double)tally->three_body.encounters;
+	}
+	bool bursts = quantity != LADDER_ENCOUNTERS && encounters > 0;
+	return rate_fit(rung, used, bursts ? events / encounters : 1);
+}
+
+const struct gas_tally *ladder_binary64(const struct ladder *ladder, int lane)
+{
+	const struct gas_tally *tally = &ladder->tally[lane * LADDER_RUNGS + LADDER_RUNGS - 1];
+	return ladder_late(lane) || !tally->three_body.contacts ? NULL : tally;
+}

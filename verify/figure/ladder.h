@@ -1,0 +1,45 @@
+/* The precision ladder: the same gases in arithmetics from coarse to fine, so that rates too low to be seen in binary64
+ * can be followed down to it. */
+#ifndef VERIFY_LADDER_H
+#define VERIFY_LADDER_H
+
+#include "figure/gas_points.h"
+#include "measure/rate_fit.h"
+
+enum { LADDER_LANES = 6, LADDER_RUNGS = 14, LADDER_POINTS = LADDER_LANES * LADDER_RUNGS };
+
+/* A gas, run on every rung. The last lane has one arithmetic and times that begin late: what is left of a time's bits
+ * below 1 is what counts. */
+struct ladder {
+	struct gas_point point[LADDER_POINTS]; /* of each lane all rungs; those not used have no events */
+	struct gas_tally tally[LADDER_POINTS];
+};
+
+/* Whether it is the lane of late clocks. */
+static inline bool ladder_late(int lane)
+{
+	return lane == LADDER_LANES - 1;
+}
+
+void ladder_choose(struct ladder *ladder, bool full);
+const char *ladder_label(const struct ladder *ladder, int lane, char label[64]);
+
+/* Bits that a point carries below times and lengths of 1. */
+double ladder_bits(const struct gas_point *point);
+
+/* What is counted of a gas. */
+enum ladder_quantity { LADDER_EVENTS, LADDER_ENCOUNTERS, LADDER_REPEATED, LADDER_ENTANGLED, LADDER_QUANTITIES };
+extern const char *const ladder_quantities[LADDER_QUANTITIES];
+uint64_t ladder_count(const struct gas_tally *tally, enum ladder_quantity quantity);
+
+/* The line through all rungs of a lane below 53 bits on which gases lasted. */
+struct rate_fit ladder_fit(const struct ladder *ladder, int lane, enum ladder_quantity quantity);
+
+/* The point of a lane in binary64 itself; NULL where it is not finished, and for late clocks. */
+const struct gas_tally *ladder_binary64(const struct ladder *ladder, int lane);
+
+/* Tables of all rungs, and of all fits. */
+struct result;
+void ladder_tables(struct result *result, const struct ladder *ladder);
+
+#endif
