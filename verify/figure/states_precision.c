@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "measure/interval.h"
+#include "measure/rate_fit.h"
 
 static const struct rung {
 	const char *arithmetic;
@@ -35,7 +36,6 @@ static const struct curve {
 	enum inconsistency_kind kind, with;
 } curves[] = {
 	{"its own pair, executed", INCONSISTENT_EXECUTED, INCONSISTENT_EXECUTED},
-	{"its own pair, when found", INCONSISTENT_FOUND, INCONSISTENT_FOUND},
 	{"any pair, by another's event", INCONSISTENT_LATER, INCONSISTENT_OTHERS},
 };
 enum { CURVES = sizeof curves / sizeof *curves };
@@ -67,16 +67,20 @@ static void extrapolate(struct result *result, struct result_figure figure, int 
 						const struct step_gas_outcome *outcomes)
 {
 	static const double reported[] = {1.4e-7, 2.6e-7};
+	struct rung_count rung[RUNGS];
 	double exposure = 0;
 	uint64_t count = 0;
 	for (int r = 0; r < RUNGS; r++) {
 		const struct inconsistency *inconsistency = &outcomes[SCENES * r + scene].inconsistency;
-		count += hits(&curves[CURVES - 1], inconsistency);
+		uint64_t seen = hits(&curves[CURVES - 1], inconsistency);
+		rung[r] = (struct rung_count){ladder[r].bits, (double)inconsistency->events, seen};
+		count += seen;
 		exposure += ldexp((double)inconsistency->events, -ladder[r].bits);
 	}
 	if (!count) return;
 	double factor = (double)count / exposure, paper = reported[scene];
 	struct interval interval = interval_of_rate(count, exposure);
+	struct rate_fit fit = rate_fit(rung, RUNGS, 1);
 	struct figure_series series = figure_series(
 		figure, scene ? "shoulder, proportional to the roundoff" : "well, proportional to the roundoff", SERIES_LINE);
 	for (int bits = ladder[0].bits; bits <= 54; bits += 10)
@@ -84,10 +88,12 @@ static void extrapolate(struct result *result, struct result_figure figure, int 
 	result_note(
 		result,
 		"%s: if they are proportional to the roundoff, pairs made inconsistent by another's event come to %.3g "
-		"times 2^-bits per event (95 %%: %.3g to %.3g; %llu seen): %.2g in binary64. The paper's %.2g is what they "
-		"come to with %.1f significant bits (%.1f to %.1f).",
+		"times 2^-bits per event (95 %%: %.3g to %.3g; %llu seen): %.2g in binary64. (With the exponent left free "
+		"it is %.2f, standard error %.2f.) The paper's %.2g is what they come to with %.1f significant bits (%.1f to "
+		"%.1f), not far from binary32's 24.",
 		scene ? "Shoulder" : "Well", factor, interval.low, interval.high, (unsigned long long)count, ldexp(factor, -53),
-		paper, log2(factor / paper), log2(interval.low / paper), log2(interval.high / paper));
+		fit.exponent, rate_fit_exponent_error(&fit), paper, log2(factor / paper), log2(interval.low / paper),
+		log2(interval.high / paper));
 }
 
 static void add_table(struct result *result, const struct step_gas_outcome *outcomes)
