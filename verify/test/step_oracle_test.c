@@ -27,8 +27,6 @@ static const struct touchstone_potential potentials[] = {
 };
 enum { POTENTIALS = sizeof potentials / sizeof *potentials };
 
-static bool brief; /* under sanitizers, where everything takes ten times longer */
-
 /* A pair as it was last tested: all its images, with the numbers of the test. */
 struct asked {
 	uint64_t event; /* after which */
@@ -213,7 +211,7 @@ static void events_are_the_oracles(void **state)
 			trial->method = ways[w].method, trial->bits = ways[w].bits;
 			trial->potential = &potentials[p], trial->oracle = oracle;
 			touchstone_observe_tests(engine, hear, INFINITY, trial);
-			struct touchstone_limits limits = {brief ? 60 : 120, INFINITY, NULL};
+			struct touchstone_limits limits = {120, INFINITY, NULL};
 			assert_int_equal(touchstone_run(engine, &limits, &(struct touchstone_observer){see, trial}),
 							 TOUCHSTONE_DONE);
 			print_message("potential %d, %s %s: %llu of %llu events held, worst error %.2g of what is allowed\n", p,
@@ -231,7 +229,6 @@ static void events_are_the_oracles(void **state)
 
 static int begin(void **state)
 {
-	brief = getenv("TOUCHSTONE_BRIEF");
 	return (*state = oracle_create()) ? 0 : -1;
 }
 
