@@ -4,6 +4,7 @@
 #   make test              all tests, also under sanitizers, and the digests of other compilers and optimisations
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
 #   make soak              10^9 answers of the correctly rounded finder against the exact oracle; QUESTIONS=1e7 for fewer
+#   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++
 #   make CC=clang          another compiler               make BUILD=build/other   another place
 #   make clean, make format
 
@@ -17,9 +18,10 @@ WARNINGS := -Wall -Wextra -Wpedantic $(if $(CI),-Werror)
 CFLAGS   := -std=gnu17 $(OPTIMISE) -g $(WARNINGS) -ffp-contract=off -fno-math-errno -fopenmp -Wno-psabi $(EXTRA)
 CPPFLAGS := -Ilib -Iverify -Ireports -D_GNU_SOURCE -MMD -MP
 # MPFR and GMP are linked in whole: calls into shared objects cost a long run 8 %.
-LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -l:libmpfr.a -l:libgmp.a -lm
+LDLIBS   := -lcyaml -lyaml -ljansson -lgsl -lgslcblas -lsqlite3 -l:libmpfr.a -l:libgmp.a -lm
 
-sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*')
+sources   = $(shell find $(1) -name '*.c' -not -path '*/test/*' -not -path '*/soak/*' -not -path '*/mpi/*' \
+	-not -path '*/target/*')
 objects   = $(patsubst %.c,$(BUILD)/object/%.o,$(1))
 MAIN     := verify/command/main.c
 BENCH    := verify/bench/main.c
@@ -35,7 +37,7 @@ MPI      := $(if $(MPICC),$(BUILD)/touchstone-mpi.so)
 PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
 	$(BUILD)/plugins/example_cxx.so
 
-.PHONY: all report test bench check soak sanitize digests format clean
+.PHONY: all report test bench check soak fuzz sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -69,6 +71,20 @@ bench:
 
 soak: $(BUILD)/verify/soak/rounded_soak
 	$< $(QUESTIONS)
+
+# Coverage-guided fuzzing of finders and readers, so many seconds each: by libFuzzer, or with FUZZER=afl by AFL++.
+SECONDS_EACH := 60
+FUZZER   := libfuzzer
+FUZZ_CC  := $(if $(filter afl,$(FUZZER)),afl-clang-fast,clang)
+TARGETS  := $(patsubst verify/fuzz/target/%.c,$(BUILD)/fuzz-$(FUZZER)/target/%,$(wildcard verify/fuzz/target/*.c))
+fuzz:
+	@.ci/setup fuzz
+	@echo 'int LLVMFuzzerTestOneInput(void) { return 0; }' | \
+		$(FUZZ_CC) -fsanitize=fuzzer -x c -o /dev/null - >/dev/null 2>&1 || \
+		{ echo 'fuzz: skipped, for $(FUZZ_CC) -fsanitize=fuzzer does not work here' >&2; exit 77; }
+	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/fuzz-$(FUZZER) CC=$(FUZZ_CC) OPTIMISE=-O1 \
+		EXTRA='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(TARGETS)
+	@verify/fuzz/guide $(BUILD)/fuzz-$(FUZZER) $(SECONDS_EACH) $(TARGETS)
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
 sanitize:
@@ -105,7 +121,7 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart bench/main \
+$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart command/audit bench/main \
 	campaign/piece_store): CPPFLAGS += \
 	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
 
@@ -114,7 +130,7 @@ cases_folder := -DTOUCHSTONE_CASES='"$(CURDIR)/cases"'
 $(BUILD)/object/verify/command/cases.o: CPPFLAGS += $(cases_folder)
 
 # Templates and plot scripts are part of the program.
-$(BUILD)/object/reports/page.o: $(wildcard reports/templates/*)
+$(BUILD)/object/reports/page.o $(BUILD)/object/reports/junit.o: $(wildcard reports/templates/*)
 $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
 
 # One set of objects for the program, the archive and the shared library, which shows what touchstone.h declares.
@@ -138,6 +154,9 @@ $(BUILD)/%_test: %_test.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS) -lcmocka
 
+# The planted faults are about the answers of the program that loads them.
+$(BUILD)/verify/test/fuzz_test: LDFLAGS += -rdynamic
+
 $(TESTS): | $(PLUGINS) $(BUILD)/bench $(MPI)
 
 $(BUILD)/touchstone-mpi.so: verify/mpi/ranks_mpi.c verify/campaign/ranks.h
@@ -156,6 +175,11 @@ $(BUILD)/plugins/%_cxx.so: verify/test/plugins/%.c lib/touchstone.h
 $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)
+
+$(BUILD)/target/%: verify/fuzz/target/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
+	@mkdir -p $(@D)
+	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) \
+		$(LDLIBS)
 
 include .ci/install.mk
 

@@ -154,10 +154,10 @@ const char *touchstone_arithmetic_name(size_t number)
 	return number < sizeof names / sizeof *names ? names[number] : NULL;
 }
 
-static const char *const finder_names[] = {"stable",      "naive",    "guarded",
-										   "compensated", "rounded",  "numerical-recipes",
-										   "kahan",       "sterbenz", "textbook-epsilon"};
-enum { FINDERS = sizeof finder_names / sizeof *finder_names, POLICIES = 5 };
+static const char *const finder_names[] = {
+	"stable", "naive",  "guarded", "compensated",       "rounded", "rewind",   "skip",
+	"search", "shrink", "tc",      "numerical-recipes", "kahan",   "sterbenz", "textbook-epsilon"};
+enum { FINDERS = sizeof finder_names / sizeof *finder_names, POLICIES = 10 };
 
 /* Those that are a policy around the finders of another. */
 static const char *const policy_names[] = {"positional", "stretch", "nudge", "last-event"};

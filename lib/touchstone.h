@@ -109,7 +109,11 @@ struct touchstone_scene {
 	const struct touchstone_virtual_wall *virtual_walls;
 	enum touchstone_form form;
 	enum touchstone_search search;
-	double cell;    /* side of a search cell; 0: chosen. Never changes a result */
+	double cell; /* side of a search cell; 0: chosen. Never changes a result */
+	/* What methods leave open; 0: what their files say (lib/method), which other methods do not read. */
+	double contact_time; /* `tc`: collisions within this time after another are elastic */
+	double shrinking;    /* `shrink`: how much farther contacts are looked for, in units of the largest diameter */
+	double search_step;  /* `search`: first step back, in roundoffs of the contact distance */
 	double clock;   /* time at which everything begins, 0 or more: in the absolute form a late one costs precision */
 	unsigned grain; /* significant bits of the places' size, so that it is exact in every arithmetic that is to run
 					   this same scene; 0: as many as the engine's own arithmetic takes */

@@ -19,7 +19,9 @@ EMBED(plot_trajectory, "plots/trajectory.gp");
 EMBED(plot_scaling, "plots/scaling.gp");
 EMBED(plot_curves, "plots/curves.gp");
 EMBED(plot_bars, "plots/bars.gp");
+EMBED(plot_discs, "plots/discs.gp");
 EMBED(plot_frontier, "plots/frontier.gp");
+EMBED(plot_trend, "plots/trend.gp");
 EMBED(plot_map, "plots/map.gp");
 
 static const struct kind {
@@ -31,7 +33,9 @@ static const struct kind {
 	{"scaling", plot_scaling, {"bits", "error"}},
 	{"curves", plot_curves, {"x", "y", "low", "high"}},
 	{"bars", plot_bars, {"category", "value", "low", "high"}},
+	{"discs", plot_discs, {"x", "radius", "speed", "touched"}},
 	{"frontier", plot_frontier, {"x", "y", "low", "high", "best"}},
+	{"trend", plot_trend, {"time", "y", "low", "high"}},
 	{"map", plot_map, {"x", "y", "value"}},
 };
 

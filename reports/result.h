@@ -103,9 +103,14 @@ __attribute__((format(printf, 3, 4))) void table_shaded(struct result_table tabl
  *	scaling           bits error                error over significand bits, with fits (series_fit) in the legend
  *	curves            x y low high              low and high are error bars: NaN for none
  *	bars              category value low high   grouped bars; category counts from 0 into the frame's categories
+ *	discs             x radius speed touched    discs on a line with their velocities; touched is 1 for those that have
+ *	                                            just collided. One panel per cell; the note stands in it.
  *	frontier          x y low high best         what each costs and is worth: points where best is 1 stand out, the
  *	                                            others are faint; SERIES_LINE is the frontier, from left to right.
  *	                                            Points are marked (series_mark). One panel per cell.
+ *	trend             time y low high           over the days, time being seconds since 1970: SERIES_LINE is a band from
+ *	                                            low to high around y, SERIES_POINTS are nights with their intervals,
+ *	                                            SERIES_ENDS those that stand out. All may be marked.
  *	map               x y value                 a value > 0 on a logarithmic scale of colours, on an even grid of x and
  *y; NaN leaves a cell white. A point's name, where shown, stands in its cell
  */

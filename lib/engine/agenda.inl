@@ -169,7 +169,8 @@ static void heap_drop(struct agenda *agenda, const void *context)
 	agenda->heap[hole] = last;
 }
 
-/* Enters an event of a particle, `entry.time` after the beginning of `page`. What is overdue is served at once. */
+/* Enters an event of a particle, `entry.time` after the beginning of `page`. What is overdue is served at once, the
+ * earliest first. */
 static void agenda_push(struct agenda *agenda, const void *context, double page, struct entry entry)
 {
 	double days = page * agenda->per_day, more = double_below(entry.time) * agenda->per_day;
@@ -179,7 +180,8 @@ static void agenda_push(struct agenda *agenda, const void *context, double page,
 	}
 	double day = days + (double)(int64_t)more; /* pages are whole days, and times are not negative */
 	if (day < agenda->today) {
-		entry.time = from_double(-1);
+		double early = page - agenda->today * agenda->day + to_double(entry.time);
+		entry.time = from_double(fmin(early, -0x1p-100));
 		day = agenda->today;
 	}
 	if (day == agenda->today)

@@ -207,10 +207,12 @@ static inline void part(struct touchstone_engine *engine, const struct encounter
 /* Two particles collide (2014 paper, eqs. 3 to 5). */
 static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
 {
+	bool brief =
+		engine->method->policy & POLICY_BRIEF_ELASTIC && (lately(engine, i) || lately(engine, entry_particle(entry)));
 	struct encounter encounter = bring_together(engine, i, entry);
 	struct touchstone_restitution law = restitution_between(engine, i, encounter.j);
 	double restitution = 1, speed = 0;
-	if (!engine->elastic) {
+	if (!engine->elastic && !brief) {
 		num distance;
 		if (law.law != TOUCHSTONE_CONSTANT) speed = to_double(approach_of(&encounter, &distance));
 		restitution = restitution_at(law, speed);
@@ -225,11 +227,11 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 static void rebound(struct touchstone_engine *engine, uint32_t i, uint32_t number)
 {
 	const struct wall *wall = &engine->wall[number];
-	bool stalled = stalls(engine, i);
+	bool stalled = stalls(engine, i), brief = engine->method->policy & POLICY_BRIEF_ELASTIC && lately(engine, i);
 	struct body *body = &engine->body[i];
 	advance(engine, body, &engine->place[i], engine->now);
 	struct flight over = over_wall(engine, i, wall);
-	double coefficient = engine->elastic ? 1 : restitution_at(wall->restitution, -to_double(over.speed));
+	double coefficient = engine->elastic || brief ? 1 : restitution_at(wall->restitution, -to_double(over.speed));
 	num kick = mul(add(from_double(1), from_double(coefficient)), over.speed);
 	if (engine->observer) {
 		uint32_t species = engine->place[i].species;

@@ -18,6 +18,16 @@ static const struct method *find_policy(const char *name, char error[160])
 	return NULL;
 }
 
+/* Rules for hard bodies have no finder for a pair that is to part. */
+static bool suits(const struct method *method, const struct touchstone_scene *scene, char error[160])
+{
+	bool states = scene->virtual_wall_count > 0;
+	for (size_t p = 0; p < scene->potential_count; p++) states |= scene->potentials[p].step_count > 0;
+	return !states || (method->ball_leave && method->half_space) ||
+		   refuse(error, "method '%s' is a rule for hard bodies: no scene with steps or virtual walls runs by it",
+				  method->name);
+}
+
 static void engine_destroy(struct touchstone_engine *engine)
 {
 	if (!engine) return;
@@ -230,7 +240,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 {
 	if (!scene_makes_sense(scene, error)) return NULL;
 	const struct method *chosen = find_policy(method, error);
-	if (!chosen) return NULL;
+	if (!chosen || !suits(chosen, scene, error)) return NULL;
 	struct touchstone_engine *engine = calloc(1, sizeof *engine);
 	if (!engine) {
 		refuse(error, "not enough memory");
@@ -249,6 +259,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_sieve(engine) &&
 				set_policy(engine);
 	if (made) {
+		read_policy(engine, scene);
 		engine->slack = slack_needed(engine, 0, typical_speed(engine));
 		made = (engine->count < 2 || lay_out_cells(engine)) && read_states(engine);
 		read_sides(engine);

@@ -39,7 +39,8 @@ static struct touchstone_landing drop_one(const struct method *method, const str
 		struct flight flight = {gap, speed, gravity, zero};
 		struct quadratic f;
 		num wait = method->ball_plane(&flight, &f);
-		if (!is_finite(wait) || less(wait, zero)) {
+		bool backwards = method->policy & POLICY_BACKWARDS;
+		if (!is_finite(wait) || (less(wait, zero) && !backwards)) {
 			landing.verdict = TOUCHSTONE_HALTED;
 			break;
 		}

@@ -40,8 +40,13 @@ extern const struct unit THIS_UNIT;
 #include "method/kahan.inl"
 #include "method/naive.inl"
 #include "method/numerical_recipes.inl"
+#include "method/rewind.inl"
 #include "method/rounded.inl"
+#include "method/search.inl"
+#include "method/shrink.inl"
+#include "method/skip.inl"
 #include "method/sterbenz.inl"
+#include "method/tc.inl"
 #include "method/textbook_epsilon.inl"
 
 #include "finder/methods.inl"
@@ -61,6 +66,8 @@ extern const struct unit THIS_UNIT;
 #include "engine/shadow.inl"
 
 #include "engine/search.inl"
+
+#include "engine/policy.inl"
 
 #include "engine/collide.inl"
 #include "engine/crossing.inl"

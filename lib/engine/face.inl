@@ -216,6 +216,7 @@ static void engine_explain(const struct touchstone_engine *engine, void (*line)(
 	line(context, engine->species_count > 1 ? "species: several, contact distance per pair"
 											: "species: one, so one contact distance for all pairs");
 	explain_states(engine, line, context);
+	explain_policy(engine, line, context);
 }
 
 const struct unit THIS_UNIT = {

@@ -35,6 +35,17 @@ static inline struct moment moment_on(const struct touchstone_engine *engine, do
 	return moment;
 }
 
+/* The same for a time that may lie before the beginning of the page. */
+static struct moment moment_back_on(const struct touchstone_engine *engine, double page, num time)
+{
+	double length = engine->page_length, near = to_double(time);
+	if (near >= 0 || length == INFINITY) return moment_on(engine, page, time);
+	double pages = floor(near / length);
+	time = sub(time, from_double(pages * length));
+	if (!(to_double(time) < length)) time = from_double(0), pages++;
+	return (struct moment){page + pages * length, time};
+}
+
 static inline double moment_double(struct moment moment)
 {
 	return moment.page + to_double(moment.time);
@@ -64,12 +75,19 @@ static void advance(const struct touchstone_engine *engine, struct body *body, s
 	body->page = moment.page;
 }
 
+/* Position of one body seen from image `image` of another. */
+static inline num offset_of(const struct touchstone_engine *engine, const struct body *body, const struct place *place,
+							const struct body *other, const struct place *others, int image, int axis)
+{
+	num offset = sub(body->position[axis], other->position[axis]);
+	int32_t places = place->index[axis] - others->index[axis] - image * engine->places[axis];
+	return places ? add(offset, mul(from_double(places), engine->place_size[axis])) : offset;
+}
+
 /* Position of particle i seen from image `image` of particle j, each where its own last event left it. */
 static inline num offset_between(const struct touchstone_engine *engine, uint32_t i, uint32_t j, int image, int axis)
 {
-	num offset = sub(engine->body[i].position[axis], engine->body[j].position[axis]);
-	int32_t places = engine->place[i].index[axis] - engine->place[j].index[axis] - image * engine->places[axis];
-	return places ? add(offset, mul(from_double(places), engine->place_size[axis])) : offset;
+	return offset_of(engine, &engine->body[i], &engine->place[i], &engine->body[j], &engine->place[j], image, axis);
 }
 
 /* Relative position and velocity of i and an entry j at the later of their last events, and which of the two that

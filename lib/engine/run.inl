@@ -67,7 +67,9 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 	uint32_t partner = engine->itinerary[i].partner, met[2] = {i, entry_particle(partner)};
 	uint8_t meets = engine->itinerary[i].meets;
 	int particles = with_particle(meets) ? 2 : 1;
+	unsigned policy = engine->method->policy;
 	engine->now = (struct moment){engine->itinerary[i].page, engine->itinerary[i].time};
+	if (policy & POLICY_SEARCH) search_back(engine, i, meets, partner);
 	keep_time(engine);
 	if (meets == TOUCHSTONE_CONTACT)
 		collide(engine, i, partner);
@@ -80,6 +82,11 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 		cast_shadow(engine, met[p]);
 	}
 	if (engine->last_met) remember_event(engine, met, particles);
+	if (policy & (POLICY_BACKWARDS | POLICY_SEARCH) && far_back(engine)) {
+		engine->search = TOUCHSTONE_ALL; /* from here on */
+		if (!lay_out(engine)) out_of_memory(engine);
+		return;
+	}
 	engine->executing = true;
 	predict_all(engine, met, particles);
 	engine->executing = false;

@@ -62,13 +62,18 @@ static inline void consider_moment(struct touchstone_engine *engine, uint32_t i,
 	*plan = (struct plan){moment, partner, meets, true};
 }
 
+static num early_meeting(const struct touchstone_engine *engine, struct balls *balls, struct quadratic *f);
+static num early_landing(const struct touchstone_engine *engine, struct flight *flight, struct quadratic *f);
+static void consider_odd(struct touchstone_engine *engine, uint32_t i, const struct body *later, num wait,
+						 uint8_t meets, uint32_t partner, struct plan *plan);
+
 /* The same for one that is `wait` after the last event of `later`; or, when that is no time at all, the end. */
 static void consider(struct touchstone_engine *engine, uint32_t i, const struct body *later, num wait, uint8_t meets,
 					 uint32_t partner, struct plan *plan)
 {
 	if (to_double(wait) == INFINITY || engine->verdict != TOUCHSTONE_DONE) return;
 	if (!is_finite(wait) || less(wait, from_double(0)))
-		halt(engine, i, later, wait, meets, partner);
+		consider_odd(engine, i, later, wait, meets, partner, plan);
 	else
 		consider_moment(engine, i, moment_on(engine, later->page, add(later->time, wait)), meets, partner, plan);
 }
@@ -91,6 +96,7 @@ static inline num pair_wait(const struct touchstone_engine *engine, ball_finder 
 static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const uint32_t *candidate, size_t candidates,
 						   struct plan *plan)
 {
+	bool early = engine->method->policy & POLICY_EARLY;
 	for (size_t k = 0; k < candidates; k++) {
 		struct balls balls;
 		uint32_t j = entry_particle(candidate[k]);
@@ -98,7 +104,9 @@ static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const u
 		uint8_t meets = first_meeting(engine, i, j, &balls.contact);
 		if (meets == MEETS_NOTHING) continue;
 		const struct step *step = meets == TOUCHSTONE_CAPTURE ? potential_between(engine, i, j)->step : NULL;
-		num wait = pair_wait(engine, engine->method->ball_ball, i, candidate[k], &balls, step);
+		struct quadratic f;
+		num wait = early ? early_meeting(engine, &balls, &f)
+						 : pair_wait(engine, engine->method->ball_ball, i, candidate[k], &balls, step);
 		consider(engine, i, later, wait, meets, candidate[k], plan);
 	}
 }
@@ -108,7 +116,8 @@ static void consider_walls(struct touchstone_engine *engine, uint32_t i, struct 
 	for (size_t w = 0; w < engine->wall_count; w++) {
 		struct flight flight = over_wall(engine, i, &engine->wall[w]);
 		struct quadratic f;
-		num wait = engine->method->ball_plane(&flight, &f);
+		bool early = engine->method->policy & POLICY_EARLY;
+		num wait = early ? early_landing(engine, &flight, &f) : engine->method->ball_plane(&flight, &f);
 		consider(engine, i, &engine->body[i], wait, TOUCHSTONE_WALL, (uint32_t)w, plan);
 	}
 }

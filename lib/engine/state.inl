@@ -139,6 +139,11 @@ struct touchstone_engine {
 	/* what methods keep that correct or remember: nothing under all others */
 	num correction_time; /* of `stretch` and `last-event` */
 	uint32_t *last_met;  /* per particle, the partner of its last event; NULL but for `last-event` */
+	/* what the method's policy needs (policy.inl) */
+	num contact_time,
+		margin;           /* of POLICY_BRIEF_ELASTIC, and of POLICY_EARLY: how much farther contacts are looked for */
+	double search_part;   /* of POLICY_SEARCH: first step, as a part of the contact distance */
+	struct moment latest; /* that the run has come to, where it may go back */
 
 	/* virtual walls; side and crossed are NULL without */
 	size_t virtual_wall_count;

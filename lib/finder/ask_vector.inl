@@ -26,6 +26,11 @@ static inline __attribute__((always_inline)) void ask_any(const struct method *m
 	if (method == &methods[STABLE]) ask(&methods[STABLE], questions);
 	if (method == &methods[NAIVE]) ask(&methods[NAIVE], questions);
 	if (method == &methods[GUARDED]) ask(&methods[GUARDED], questions);
+	if (method == &methods[REWIND]) ask(&methods[REWIND], questions);
+	if (method == &methods[SKIP]) ask(&methods[SKIP], questions);
+	if (method == &methods[SEARCH]) ask(&methods[SEARCH], questions);
+	if (method == &methods[SHRINK]) ask(&methods[SHRINK], questions);
+	if (method == &methods[TC]) ask(&methods[TC], questions);
 	if (method == &methods[NUMERICAL_RECIPES]) ask(&methods[NUMERICAL_RECIPES], questions);
 	if (method == &methods[KAHAN]) ask(&methods[KAHAN], questions);
 	if (method == &methods[STERBENZ]) ask(&methods[STERBENZ], questions);

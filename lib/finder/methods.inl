@@ -8,12 +8,16 @@ enum sieving {
 	SIEVE_ORDER,  /* and those that surely meet later than another pair */
 };
 
-/* What an engine does under a method besides asking its finders. */
+/* What the engine does under a method besides asking its finder (engine/policy.inl). */
 enum policy {
-	POLICY_POSITIONAL = 1 << 8, /* pair states are read from separations: method/positional.inl */
-	POLICY_STRETCH = 1 << 9,    /* method/stretch.inl */
-	POLICY_NUDGE = 1 << 10,     /* method/nudge.inl */
-	POLICY_LAST_EVENT = 1 << 11 /* method/last_event.inl */
+	POLICY_BACKWARDS = 1 << 0,     /* an event before now is executed: the run goes back */
+	POLICY_SEARCH = 1 << 1,        /* an event that finds its bodies overlapped is moved back to where they do not */
+	POLICY_EARLY = 1 << 2,         /* contacts are looked for at a slightly larger distance */
+	POLICY_BRIEF_ELASTIC = 1 << 3, /* soon after a collision no energy is lost */
+	POLICY_POSITIONAL = 1 << 8,    /* pair states are read from separations: method/positional.inl */
+	POLICY_STRETCH = 1 << 9,       /* method/stretch.inl */
+	POLICY_NUDGE = 1 << 10,        /* method/nudge.inl */
+	POLICY_LAST_EVENT = 1 << 11,   /* method/last_event.inl */
 };
 
 /* How many times the roundoff the methods correct by that do so: no source says how much. With 64, in a gas so dilute
@@ -27,7 +31,7 @@ struct method {
 	plane_finder *ball_plane;
 	half_space_finder *half_space;
 	claim_maker *claim; /* what the method's file claims; NULL: nothing */
-	unsigned policy;    /* of enum policy; 0: nothing but asking */
+	unsigned policy;    /* of enum policy */
 };
 
 enum {
@@ -36,6 +40,11 @@ enum {
 	GUARDED,
 	COMPENSATED,
 	ROUNDED,
+	REWIND,
+	SKIP,
+	SEARCH,
+	SHRINK,
+	TC,
 	NUMERICAL_RECIPES,
 	KAHAN,
 	STERBENZ,
@@ -57,6 +66,24 @@ static const struct method methods[METHODS] = {
 					 stable_half_space, compensated_claim, 0},
 	[ROUNDED] = {"rounded", SIEVE_ORDER, rounded_ball_ball, rounded_ball_leave, rounded_ball_plane, rounded_half_space,
 				 rounded_claim, 0},
+	[REWIND] = {.name = "rewind",
+				.ball_ball = naive_ball_ball,
+				.ball_plane = naive_ball_plane,
+				.policy = POLICY_BACKWARDS},
+	[SKIP] = {.name = "skip", .sieve = SIEVE_MISSES, .ball_ball = skip_ball_ball, .ball_plane = skip_ball_plane},
+	[SEARCH] = {.name = "search",
+				.ball_ball = naive_ball_ball,
+				.ball_plane = naive_ball_plane,
+				.policy = POLICY_SEARCH},
+	[SHRINK] = {.name = "shrink",
+				.ball_ball = shrink_ball_ball,
+				.ball_plane = shrink_ball_plane,
+				.policy = POLICY_EARLY},
+	[TC] = {.name = "tc",
+			.sieve = SIEVE_ORDER,
+			.ball_ball = stable_ball_ball,
+			.ball_plane = stable_ball_plane,
+			.policy = POLICY_BRIEF_ELASTIC},
 	[NUMERICAL_RECIPES] = {.name = "numerical-recipes",
 						   .ball_ball = numerical_recipes_ball_ball,
 						   .ball_leave = numerical_recipes_ball_leave},

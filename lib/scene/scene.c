@@ -212,6 +212,9 @@ bool scene_build(const struct scene_recipe *recipe, uint64_t seed, struct touchs
 		.search = recipe->search,
 		.cell = recipe->cell,
 		.clock = recipe->clock,
+		.contact_time = recipe->contact_time,
+		.shrinking = recipe->shrinking,
+		.search_step = recipe->search_step,
 	};
 	if (!check_recipe(recipe, error)) return false;
 	memcpy(scene->acceleration, recipe->acceleration, sizeof scene->acceleration);

@@ -58,6 +58,7 @@ struct scene_recipe {
 	enum touchstone_form form;
 	enum touchstone_search search;
 	double cell, clock;
+	double contact_time, shrinking, search_step; /* of methods; 0: what they say themselves */
 };
 
 /* Why a scene cannot be. `key` is the part of the recipe that is to blame, in the words of a scene file, such as

@@ -247,21 +247,23 @@ static void figures_of_unknown_kind_are_named(void **state)
 static void every_kind_takes_every_style(void **state)
 {
 	(void)state;
-	static const char *const kinds[] = {"impact-histogram", "trajectory", "scaling", "curves", "bars", "frontier"};
-	static const char *const columns[] = {"left", "right", "height", "time",     "remaining", "bits", "error", "x",
-										  "y",    "low",   "high",   "category", "value",     "best", NULL};
+	static const char *const kinds[] = {"impact-histogram", "trajectory", "scaling", "curves", "bars",
+										"frontier",         "discs"};
+	static const char *const columns[] = {"left",  "right", "height", "time",  "remaining", "bits",
+										  "error", "x",     "y",      "low",   "high",      "category",
+										  "value", "best",  "radius", "speed", "touched",   NULL};
 	static const char *const categories[] = {"one", "two", NULL};
-	static const double rows[][14] = {{1, 2, 0.5, 0, 8, 8, 0.1, 1, 2, 1, 3, 0, 2, 1},
-									  {2, 4, 0.25, 1, 1, 24, 0.01, 2, 4, 3, 6, 1, 4, 0}};
+	static const double rows[][17] = {{1, 2, 0.5, 0, 8, 8, 0.1, 1, 2, 1, 3, 0, 2, 1, 0.5, -1, 1},
+									  {2, 4, 0.25, 1, 1, 24, 0.01, 2, 4, 3, 6, 1, 4, 0, 0.5, 1, 0}};
 	char *in = folder_new(), *out = folder_new();
 	struct result *result = result_new("r", "R");
-	for (unsigned i = 0; i < 24; i++) {
+	for (unsigned i = 0; i < 28; i++) {
 		char name[20];
 		snprintf(name, sizeof name, "f%u", i);
 		const unsigned bases[] = {0, 10, 2};
 		struct figure_axis axis = {.label = "axis", .logarithmic = bases[i % 3]};
 		struct result_figure figure = result_figure(result, &(struct figure_frame){.name = name,
-																				   .kind = kinds[i % 6],
+																				   .kind = kinds[i % 7],
 																				   .title = name,
 																				   .caption = "",
 																				   .alternative = "",
@@ -269,13 +271,13 @@ static void every_kind_takes_every_style(void **state)
 																				   .y = axis,
 																				   .columns = columns,
 																				   .categories = categories});
-		struct figure_series series = figure_series(figure, "alone", (enum series_style)(i / 6));
+		struct figure_series series = figure_series(figure, "alone", (enum series_style)(i / 7));
 		series_row(series, rows[0]), series_row(series, rows[1]);
 	}
 	put(result, in);
 	assert_true(report_write(in, out, error));
 	assert_string_equal(error, "");
-	assert_int_equal(folder_count(out, ".svg"), 24);
+	assert_int_equal(folder_count(out, ".svg"), 28);
 	folder_remove(in), folder_remove(out);
 }
 

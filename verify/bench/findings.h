@@ -4,7 +4,7 @@
 
 #include "bench/cores.h"
 #include "bench/points.h"
-#include "bench/spread.h"
+#include "measure/spread.h"
 
 struct engine_cost {
 	struct sample start_up, event; /* seconds, nanoseconds: one for each repetition */

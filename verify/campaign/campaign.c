@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <omp.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,14 +48,27 @@ static int compare(const void *one, const void *other)
 	return (a->piece > b->piece) - (a->piece < b->piece);
 }
 
-/* What the store has of a piece, or NULL. */
-static json_t *find(const struct campaign_work *work, const char *key)
+__attribute__((format(printf, 2, 3))) static void say(const struct campaign_work *work, const char *format, ...)
 {
-	if (!work->store) return NULL;
-	const char *revision =
-		json_string_value(json_object_get(json_object_get(piece_store_lines(work->store), key), "revision"));
-	bool foreign = work->setup->this_revision && (!revision || strcmp(revision, piece_store_revision()) != 0);
-	return foreign ? NULL : piece_store_find(work->store, key);
+	char line[CAMPAIGN_ERROR];
+	va_list arguments;
+	va_start(arguments, format);
+	vsnprintf(line, sizeof line, format, arguments);
+	va_end(arguments);
+	if (work->setup->say)
+		work->setup->say(work->setup->context, line);
+	else
+		fprintf(stderr, "touchstone: %s\n", line);
+}
+
+/* What the store has of a piece, or NULL. `foreign` counts those that another revision of the program has made. */
+static json_t *find(const struct campaign_work *work, const char *key, size_t *foreign)
+{
+	json_t *line = work->store ? json_object_get(piece_store_lines(work->store), key) : NULL;
+	const char *revision = json_string_value(json_object_get(line, "revision"));
+	bool ours = revision && strcmp(revision, piece_store_revision()) == 0;
+	*foreign += line && !ours;
+	return ours || !work->setup->this_revision ? json_object_get(line, "result") : NULL;
 }
 
 /* Takes from the store what it has, and lists the rest. */
@@ -63,10 +77,11 @@ static bool look_up(struct campaign_work *work)
 	const struct campaign *campaign = work->campaign;
 	json_t *seen = json_object();
 	bool good = true;
+	size_t foreign = 0;
 	for (size_t piece = 0; good && piece < campaign->count; piece++) {
 		char key[CAMPAIGN_KEY];
 		campaign->key(campaign->context, piece, key);
-		json_t *known = json_incref(find(work, key));
+		json_t *known = json_incref(find(work, key, &foreign));
 		good = !json_object_get(seen, key);
 		if (!good) snprintf(work->error, CAMPAIGN_ERROR, "%.40s: two pieces are called '%.400s'", campaign->name, key);
 		json_object_set_new(seen, key, json_true());
@@ -77,6 +92,9 @@ static bool look_up(struct campaign_work *work)
 		work->cost += cost;
 	}
 	json_decref(seen);
+	if (foreign > 0)
+		say(work, "%s: %zu pieces were made by another revision of the program and are %s", campaign->name, foreign,
+			work->setup->this_revision ? "made again" : "kept; remove the store to make them again");
 	qsort(work->missing, work->missing_count, sizeof *work->missing, compare);
 	return good;
 }
@@ -189,13 +207,8 @@ static bool open_store(struct campaign_work *work)
 	if (!path) return snprintf(work->error, CAMPAIGN_ERROR, "out of memory"), false;
 	work->store = piece_store_open(path, work->campaign->name, work->error);
 	free(path);
-	for (size_t n = 0; work->store && n < piece_store_note_count(work->store); n++) {
-		const char *note = piece_store_note(work->store, n);
-		if (setup->say)
-			setup->say(setup->context, note);
-		else
-			fprintf(stderr, "touchstone: %s\n", note);
-	}
+	for (size_t n = 0; work->store && n < piece_store_note_count(work->store); n++)
+		say(work, "%s", piece_store_note(work->store, n));
 	return work->store;
 }
 

@@ -106,9 +106,11 @@ static void print(const json_t *table)
 				size_t seen = 0; /* characters, which have one byte that continues none */
 				for (const char *byte = text; *byte; byte++) seen += (*byte & 0xc0) != 0x80;
 				if (seen > width[c % 64]) width[c % 64] = seen;
-				if (drawn) printf("%s%*s", text, (int)(width[c % 64] - seen) + 2, "");
+				if (drawn && c + 1 < json_array_size(row))
+					printf("%s%*s", text, (int)(width[c % 64] - seen) + 2, "");
+				else if (drawn)
+					printf("%s\n", text);
 			}
-			if (drawn) putchar('\n');
 		}
 	json_decref(lines);
 }

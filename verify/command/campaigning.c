@@ -53,6 +53,35 @@ static bool digest_scene(struct campaigning *all, char error[STORE_ERROR])
 	return good;
 }
 
+/* The events a run takes, so far as that is known. Those of wider arithmetics cost more; by how much is a guess, and
+ * only the order hangs on it. */
+static double cost_of(const struct scene_file *scene)
+{
+	static const char *const dear[] = {"mpfr", "binary128", "twin", "short"};
+	double particles = (double)scene->recipe.particle_count;
+	double events = scene->limits.events < UINT64_MAX ? (double)scene->limits.events : 100 * particles;
+	double cost = 1 + events + scene->equilibrate * particles / 2;
+	for (size_t d = 0; d < sizeof dear / sizeof *dear; d++)
+		if (strncmp(scene->arithmetic, dear[d], strlen(dear[d])) == 0) cost *= 5;
+	return cost;
+}
+
+static bool find_costs(struct campaigning *all, char error[STORE_ERROR])
+{
+	const char **settings = room_for_settings(all->file);
+	all->costs = calloc(all->file->points, sizeof *all->costs);
+	bool good = settings && all->costs;
+	if (!good) snprintf(error, STORE_ERROR, "out of memory");
+	for (size_t point = 0; good && point < all->file->points; point++) {
+		struct scene_file *scene = campaign_file_scene(all->file, point, settings, error);
+		good = scene;
+		if (good) all->costs[point] = cost_of(scene);
+		scene_file_close(scene);
+	}
+	free(settings);
+	return good;
+}
+
 /* Whether each key has its room: grids of potentials may not. */
 static bool check_keys(struct campaigning *all, char error[STORE_ERROR])
 {
@@ -73,7 +102,7 @@ bool campaigning_open(struct campaigning *all, const struct campaign_file *file,
 	all->chosen = calloc(all->count, sizeof *all->chosen);
 	for (size_t piece = 0; all->chosen && piece < all->count; piece++) all->chosen[piece] = piece;
 	if (!all->chosen) snprintf(error, STORE_ERROR, "out of memory");
-	if (all->chosen && digest_scene(all, error) && check_keys(all, error)) return true;
+	if (all->chosen && digest_scene(all, error) && find_costs(all, error) && check_keys(all, error)) return true;
 	campaigning_close(all);
 	return false;
 }
@@ -81,6 +110,7 @@ bool campaigning_open(struct campaigning *all, const struct campaign_file *file,
 void campaigning_close(struct campaigning *all)
 {
 	free(all->chosen);
+	free(all->costs);
 }
 
 bool campaigning_choose(struct campaigning *all, size_t shard, size_t shards, const char *path, char error[STORE_ERROR])
@@ -124,26 +154,10 @@ void campaigning_key(void *context, size_t piece, char key[CAMPAIGN_KEY])
 	key[CAMPAIGN_KEY - 1] = '\0';
 }
 
-/* The events it will take, so far as that is known; events of wider arithmetics cost more, by how much is known roughly
- * and matters for the order only. */
 double campaigning_cost(void *context, size_t piece)
 {
 	const struct campaigning *all = context;
-	char error[STORE_ERROR];
-	const char **settings = room_for_settings(all->file);
-	struct scene_file *scene = settings ? campaign_file_scene(all->file, point_of(all, piece), settings, error) : NULL;
-	double cost = 1;
-	if (scene) {
-		double particles = (double)scene->recipe.particle_count;
-		double events = scene->limits.events < UINT64_MAX ? (double)scene->limits.events : 100 * particles;
-		static const char *const dear[] = {"mpfr", "binary128", "twin", "short"};
-		cost = events + scene->equilibrate * particles / 2;
-		for (size_t d = 0; d < 4; d++)
-			if (strncmp(scene->arithmetic, dear[d], strlen(dear[d])) == 0) cost *= 5;
-	}
-	scene_file_close(scene);
-	free(settings);
-	return cost;
+	return all->costs[point_of(all, piece)];
 }
 
 static void tell(void *context, double done, double total)

@@ -9,6 +9,7 @@
 struct campaigning {
 	const struct campaign_file *file;
 	char scene_digest[17]; /* of the scene file's text and of the particles it lists or names */
+	double *costs;         /* of a run at each point of the grid */
 	size_t *chosen;
 	size_t count;
 };

@@ -11,6 +11,7 @@
 #include "command/grading.h"
 #include "command/interrupt.h"
 #include "command/output.h"
+#include "command/party.h"
 #include "result.h"
 #include "store/text.h"
 
@@ -36,51 +37,35 @@ static const struct argp_option options[] = {
 	{"threads", THREADS, "K", 0, "Work on K threads (as many as there are cores); grades do not depend on it", 4},
 	{0}};
 
-/* Words given with one option or as arguments. */
-struct words {
-	char **word;
-	size_t count;
-};
-
 struct wish {
-	struct words methods, arithmetics, families, plugins;
+	struct guests guests;
+	struct words families;
 	const char *inputs, *csv, *answers, *results;
-	unsigned shapes;
-	enum touchstone_shape shape; /* of a plug-in's symbol */
 	uint64_t cases, seed;
 	double patience;
 	int threads;
 };
-
-static void add_word(struct words *words, char *word)
-{
-	for (size_t w = 0; w < words->count; w++)
-		if (strcmp(words->word[w], word) == 0) return;
-	words->word[words->count++] = word;
-}
 
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
 	struct wish *wish = state->input;
 	switch (key) {
 	case ARITHMETIC:
-		add_word(&wish->arithmetics, argument);
+		words_add(&wish->guests.arithmetics, argument);
 		return 0;
 	case SHAPE:
-		if (!shape_named(argument, &wish->shape))
-			refuse_option("shape", argument, "ball-ball, ball-leave, ball-plane, half-space");
-		wish->shapes |= 1u << wish->shape;
+		guests_add_shape(&wish->guests, argument);
 		return 0;
 	case FAMILY:
 		if (strcmp(argument, "all") != 0 && !family_named(argument))
 			refuse_option("family", argument, "all, or one that `touchstone list families` has");
-		add_word(&wish->families, argument);
+		words_add(&wish->families, argument);
 		return 0;
 	case INPUTS:
 		wish->inputs = argument;
 		return 0;
 	case PLUGIN:
-		add_word(&wish->plugins, argument);
+		words_add(&wish->guests.plugins, argument);
 		return 0;
 	case PATIENCE:
 		if (!text_number(argument, &wish->patience) || wish->patience < 0.01 || wish->patience > 1e6)
@@ -105,85 +90,11 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		wish->results = argument;
 		return 0;
 	case ARGP_KEY_ARG:
-		add_word(&wish->methods, argument);
+		words_add(&wish->guests.methods, argument);
 		return 0;
 	default:
 		return ARGP_ERR_UNKNOWN;
 	}
-}
-
-/* ---- who is asked */
-
-struct party {
-	struct finder *finders;
-	size_t count;
-};
-
-/* Adds a method in an arithmetic if it has a finder for one of the shapes; if not, `error` says why. */
-static bool add_method(struct party *party, const struct wish *wish, const char *method, const char *arithmetic,
-					   char error[160])
-{
-	struct finder finder = {.method = method, .arithmetic = arithmetic};
-	for (int shape = 0; shape < TOUCHSTONE_SHAPES; shape++) {
-		if (!(wish->shapes & 1u << shape) || !finder_answers(&finder, (enum touchstone_shape)shape, error)) continue;
-		party->finders[party->count++] = finder;
-		return true;
-	}
-	return false;
-}
-
-static int add_methods(struct party *party, const struct wish *wish, const char *arithmetic)
-{
-	char error[160];
-	for (size_t m = 0; m < wish->methods.count; m++) {
-		const char *method = wish->methods.word[m];
-		bool all = strcmp(method, "all") == 0, any = false;
-		for (size_t n = 0; all && touchstone_finder_name(n); n++)
-			any |= add_method(party, wish, touchstone_finder_name(n), arithmetic, error);
-		if (!all) any = add_method(party, wish, method, arithmetic, error);
-		if (!any) return refuse("grade: %s", error);
-	}
-	return STATUS_WELL;
-}
-
-static int add_plugins(struct party *party, const struct wish *wish, const struct plugin_patience *patience)
-{
-	for (size_t p = 0; p < wish->plugins.count; p++) {
-		char error[PLUGIN_ERROR];
-		bool broken;
-		struct plugin *plugin = plugin_open(wish->plugins.word[p], wish->shape, patience, &broken, error);
-		if (!plugin) {
-			refuse("--plugin: %s", error);
-			return broken ? STATUS_FINDING : STATUS_REFUSED;
-		}
-		party->finders[party->count++] =
-			(struct finder){.method = plugin_name(plugin), .arithmetic = "binary64", .plugin = plugin};
-	}
-	return STATUS_WELL;
-}
-
-static size_t method_count(void)
-{
-	size_t count = 0;
-	while (touchstone_finder_name(count)) count++;
-	return count;
-}
-
-static int gather(struct party *party, const struct wish *wish, const struct plugin_patience *patience)
-{
-	size_t names = wish->methods.count + method_count(), ways = wish->arithmetics.count + 1;
-	party->finders = calloc(names * ways + wish->plugins.count, sizeof *party->finders);
-	if (!party->finders) return refuse("out of memory");
-	int status = STATUS_WELL;
-	for (size_t a = 0; status == STATUS_WELL && a < wish->arithmetics.count; a++)
-		status = add_methods(party, wish, wish->arithmetics.word[a]);
-	return status == STATUS_WELL ? add_plugins(party, wish, patience) : status;
-}
-
-static void dismiss(struct party *party)
-{
-	for (size_t f = 0; f < party->count; f++) plugin_close(party->finders[f].plugin);
-	free(party->finders);
 }
 
 /* ---- what is asked */
@@ -194,13 +105,6 @@ static bool wants(const struct wish *wish, const struct family *family)
 	for (size_t f = 0; f < wish->families.count; f++)
 		wanted |= strcmp(wish->families.word[f], "all") == 0 || strcmp(wish->families.word[f], family->name) == 0;
 	return wanted;
-}
-
-/* The name under which a file's questions are reported: without folder and ending. */
-static char *file_title(const char *path)
-{
-	const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *ending = strrchr(base, '.');
-	return strndup(base, ending && ending > base ? (size_t)(ending - base) : strlen(base));
 }
 
 /* Families first, then the file. */
@@ -283,13 +187,13 @@ static int ask(const struct wish *wish, const struct party *party, const struct 
 {
 	size_t families = 0;
 	while (family_at(families)) families++;
-	char *title = wish->inputs ? file_title(wish->inputs) : NULL;
+	char *title = wish->inputs ? text_stem(wish->inputs) : NULL;
 	struct question_source *sources = calloc(families + 1, sizeof *sources);
 	struct grading_plan plan = {
 		.finders = party->finders,
 		.finder_count = party->count,
 		.sources = sources,
-		.shapes = wish->shapes,
+		.shapes = wish->guests.shapes,
 		.cases = wish->cases,
 		.seed = wish->seed,
 		.threads = wish->threads,
@@ -313,7 +217,8 @@ static int ask(const struct wish *wish, const struct party *party, const struct 
 static int run(struct wish *wish, const char *command)
 {
 	char error[REPORT_ERROR];
-	const struct plugin_patience patience = {wish->patience, 100, 3, interrupt_flag()};
+	const struct plugin_patience patience = {
+		.seconds = wish->patience, .crashes = 100, .loops = 3, .stop = interrupt_flag()};
 	const char *const outputs[] = {wish->csv, wish->answers};
 	for (int o = 0; o < 2; o++)
 		if (outputs[o] && !output_possible(outputs[o], error)) return refuse("%s", error);
@@ -324,9 +229,9 @@ static int run(struct wish *wish, const char *command)
 	if (wish->inputs && !query_file_read(wish->inputs, &file, error)) return refuse("%s", error);
 	interrupt_watch();
 	struct party party = {0};
-	int status = gather(&party, wish, &patience);
+	int status = party_gather(&party, "grade", &wish->guests, &patience);
 	if (status == STATUS_WELL) status = ask(wish, &party, &file, command);
-	dismiss(&party);
+	party_dismiss(&party);
 	query_file_free(&file);
 	return status;
 }
@@ -348,18 +253,14 @@ int command_grade(int argc, char **argv)
 			"Example: touchstone grade stable naive --family grazing --cases 1e6",
 	};
 	struct wish wish = {.cases = 100000, .seed = 1, .patience = 1, .threads = omp_get_num_procs()};
-	struct words *const words[] = {&wish.methods, &wish.arithmetics, &wish.families, &wish.plugins};
-	char *usual = "binary64", *command = command_line(argc, argv);
-	bool enough = command;
-	for (int w = 0; w < 4; w++) enough &= (words[w]->word = calloc((size_t)argc + 1, sizeof(char *))) != NULL;
-	if (!enough) return refuse("out of memory");
+	char *command = command_line(argc, argv);
+	if (!command || !guests_room(&wish.guests, argc) || !words_room(&wish.families, argc))
+		return refuse("out of memory");
 	argp_parse(&argp, argc, argv, 0, NULL, &wish);
-	if (wish.methods.count + wish.plugins.count == 0)
-		refuse_usage("grade: no method; accepted: one that `touchstone list methods` has, all, or --plugin FILE.so");
-	if (wish.arithmetics.count == 0) add_word(&wish.arithmetics, usual);
-	if (wish.shapes == 0) wish.shapes = (1u << TOUCHSTONE_SHAPES) - 1;
+	guests_complete(&wish.guests, "grade");
 	int status = run(&wish, command);
-	for (int w = 0; w < 4; w++) free(words[w]->word);
+	guests_free(&wish.guests);
+	free(wish.families.word);
 	free(command);
 	return status;
 }

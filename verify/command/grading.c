@@ -58,13 +58,6 @@ static bool stopped(const struct work *work)
 	return work->plan->stop && *work->plan->stop;
 }
 
-bool finder_answers(const struct finder *finder, enum touchstone_shape shape, char error[160])
-{
-	if (!finder->plugin) return touchstone_find(finder->arithmetic, finder->method, shape, NULL, 0, false, NULL, error);
-	snprintf(error, 160, "%.80s has no finder for %s", finder->method, shape_name(shape));
-	return plugin_answers(finder->plugin, shape);
-}
-
 /* ---- questions */
 
 static uint64_t questions_in(const struct grading_plan *plan, const struct question_source *source,
@@ -236,18 +229,6 @@ static void finish_row(struct grade_row *row)
 	finder_grade_forget(&row->grade);
 }
 
-/* A claim of a method's file is one that its finder is held to. */
-static void hold_to_claim(struct grade_row *row)
-{
-	const struct finder *finder = row->finder;
-	char why[160];
-	row->claim.arithmetic = finder->arithmetic;
-	row->claim.bits = arithmetic_bits(finder->arithmetic);
-	if (!finder->plugin &&
-		touchstone_finder_claim(finder->arithmetic, finder->method, row->shape, &row->claim.claim, why))
-		row->grade.claim = &row->claim;
-}
-
 /* Gives every finder that answers the shape in hand a seat and a row. */
 static void take_seats(struct work *work)
 {
@@ -264,7 +245,7 @@ static void take_seats(struct work *work)
 			.grade = finder_grade_new(work->block.shape),
 			.nanoseconds = NAN,
 		};
-		hold_to_claim(row);
+		if (finder_claims(row->finder, row->shape, &row->claim)) row->grade.claim = &row->claim;
 		work->seat[work->seats].work = work;
 		work->seat[work->seats++].row = row;
 	}

@@ -7,16 +7,10 @@
 #include "command/progress.h"
 #include "family/family.h"
 #include "measure/finder_grade.h"
-#include "plugin/plugin.h"
+#include "plugin/finder.h"
 #include "store/query_file.h"
 
 enum { GRADING_ERROR = 400 }; /* room for a one-line message */
-
-/* One who is asked: a method in an arithmetic, or a plug-in. */
-struct finder {
-	const char *method, *arithmetic; /* a plug-in's name, and binary64 */
-	struct plugin *plugin;           /* NULL: a method */
-};
 
 /* Where questions come from: a family, or the lines of a file. */
 struct question_source {
@@ -80,9 +74,6 @@ double grading_questions(const struct grading_plan *plan);
  * threads do it. False with one line in `error`; end with grading_free either way. */
 bool grading_run(const struct grading_plan *plan, struct grading *grading, char error[GRADING_ERROR]);
 void grading_free(struct grading *grading);
-
-/* Whether a finder has an answer for the shape; if not, `error` says why. */
-bool finder_answers(const struct finder *finder, enum touchstone_shape shape, char error[160]);
 
 /* Whether there is something to be woken for: a claim that is not kept, or a plug-in that crashed, did not come to an
  * end, or gave answers that are no times. */

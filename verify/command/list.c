@@ -8,7 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "audit/suite.h"
 #include "campaign/campaign_file.h"
 #include "command/cases.h"
 #include "family/family.h"
@@ -39,6 +41,11 @@ static const struct {
 	{"guarded", "a simulator's guards: slow balls and balls that overlap have no event"},
 	{"compensated", "the stable rule over a, b, c and a discriminant formed in twice the precision"},
 	{"rounded", "the time of the stable rule, correctly rounded"},
+	{"rewind", "2014 paper, section 3: textbook roots, negative times executed, the clock going back"},
+	{"skip", "2014 paper, section 3: bodies that overlap are not tested until they have parted"},
+	{"search", "Allen, Frenkel and Talbot 1989: an overlap at contact is walked back to where there is none"},
+	{"shrink", "Poeschel and Schwager 2005: contacts are looked for a little early"},
+	{"tc", "Luding and McNamara 1998: elastic within a contact time after a collision"},
 	{"positional", "Alder and Wainwright 1959: a pair's state is read from its separation each time it is tested"},
 	{"stretch", "positional, with a small time added to events, so that pairs come to lie where they belong"},
 	{"nudge", "positional, with pairs moved across the step where an event has left them on its wrong side"},
@@ -113,19 +120,31 @@ static int is_scene(const struct dirent *entry)
 	return *entry->d_name != '.' && ending && strcmp(ending, ".yaml") == 0;
 }
 
-/* A scene that cannot be read is said so; the others are listed all the same. */
-static bool list_case(const char *folder, const char *base)
+/* A scene in a folder of the cases, by which it is then called as well. One that cannot be read is said so; the others
+ * are listed all the same. */
+static bool list_scene(const char *folder, const char *within, const char *base)
 {
-	char *path, error[STORE_ERROR];
-	if (asprintf(&path, "%s/%s", folder, base) < 0) return false;
+	char *path, name[80], error[STORE_ERROR];
+	if (asprintf(&path, "%s/%s%s", folder, within, base) < 0) return false;
 	struct scene_file *file = scene_file_open(path, 0, NULL, error);
 	free(path);
+	if (file) snprintf(name, sizeof name, "%s%s", within, file->name);
 	if (file)
-		print(file->name, file->title);
+		print(name, file->title);
 	else
 		refuse("%s", error);
 	scene_file_close(file);
 	return file;
+}
+
+static bool list_case(const char *folder, const char *base)
+{
+	return list_scene(folder, "", base);
+}
+
+static bool list_stress(const char *folder, const char *base)
+{
+	return list_scene(folder, "stress/", base);
 }
 
 /* The same for a campaign, whose scene may be one of the cases. */
@@ -141,6 +160,21 @@ static bool list_campaign(const char *folder, const char *base)
 		refuse("%s", error);
 	campaign_file_close(file);
 	return file;
+}
+
+/* And for a suite. */
+static bool list_suite(const char *folder, const char *base)
+{
+	char *path, error[STORE_ERROR];
+	if (asprintf(&path, "%s/suites/%s", folder, base) < 0) return false;
+	struct suite *suite = suite_open(path, folder, error);
+	free(path);
+	if (suite)
+		print(suite->name, suite->title);
+	else
+		refuse("%s", error);
+	suite_close(suite);
+	return suite;
 }
 
 /* Lists what a folder of the cases holds. */
@@ -163,12 +197,22 @@ static bool list_entries(const char *folder, const char *within, bool (*list)(co
 
 static bool list_cases(const char *folder)
 {
-	return list_entries(folder, "", list_case);
+	char *stress;
+	if (asprintf(&stress, "%s/stress", folder) < 0) return false;
+	bool stressed = access(stress, R_OK) == 0;
+	free(stress);
+	bool good = list_entries(folder, "", list_case);
+	return (!stressed || list_entries(folder, "/stress", list_stress)) && good;
 }
 
 static bool list_campaigns(const char *folder)
 {
 	return list_entries(folder, "/campaigns", list_campaign);
+}
+
+static bool list_suites(const char *folder)
+{
+	return list_entries(folder, "/suites", list_suite);
 }
 
 static const struct kind {
@@ -177,6 +221,7 @@ static const struct kind {
 } kinds[] = {
 	{"cases", list_cases},       {"methods", list_methods}, {"arithmetics", list_arithmetics},
 	{"families", list_families}, {"figures", list_figures}, {"campaigns", list_campaigns},
+	{"suites", list_suites},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -194,13 +239,14 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case ARGP_KEY_ARG:
 		if (wish->kind)
-			refuse_usage(
-				"list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, campaigns");
+			refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, "
+						 "campaigns, suites");
 		for (int k = 0; k < KINDS; k++)
 			if (strcmp(kinds[k].name, argument) == 0) wish->kind = &kinds[k];
 		if (!wish->kind)
-			refuse_usage("list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns",
-						 argument);
+			refuse_usage(
+				"list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns, suites",
+				argument);
 		return 0;
 	default:
 		return ARGP_ERR_UNKNOWN;
@@ -214,9 +260,10 @@ int command_list(int argc, char **argv)
 	static const struct argp argp = {
 		.options = options,
 		.parser = parse,
-		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns]",
+		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns|suites]",
 		.doc = "Lists what there is, with one line each: scenes that `run` knows by name, methods and arithmetics, "
-			   "families of questions to finders, figures that `reproduce` makes, campaigns.\vExample: touchstone list "
+			   "families of questions to finders, figures that `reproduce` makes, campaigns, suites of "
+			   "`audit`.\vExample: touchstone list "
 			   "methods",
 	};
 	struct wish wish = {0};

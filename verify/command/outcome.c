@@ -92,7 +92,10 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 		touchstone_observe_tests(simulation->engine, see_test, inconsistency_reach, outcome->states);
 	}
 	double clock = progress_clock();
-	outcome->interrupted = !simulation_advance(simulation, &limits, observed ? &observer : NULL, progress, before);
+	const struct touchstone_observer *look = observed ? &observer : NULL;
+	if (plan->trace) limits.stop = interrupt_flag();
+	outcome->interrupted = plan->trace ? !trace_run(&outcome->trace, simulation->engine, &limits, look)
+									   : !simulation_advance(simulation, &limits, look, progress, before);
 	outcome->wall_seconds = progress_clock() - clock;
 	touchstone_status(simulation->engine, &outcome->status);
 	if (outcome->interrupted)
@@ -103,6 +106,17 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 		reason(outcome, "no event is left after t = %.17g", outcome->status.time);
 	for (size_t w = 0; w < outcome->virtual_wall_count; w++) touchstone_flux(simulation->engine, w, outcome->fluxes[w]);
 	if (plan->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
+}
+
+/* The same run once more, watched for what goes wrong. */
+static void judge(struct outcome *outcome, const struct run_plan *plan, const struct simulation *simulation)
+{
+	const struct watch watch = {interrupt_flag(), NULL, NULL};
+	char why[160];
+	outcome->failed = !failure_find(&simulation->scene, plan->file->equilibrate, plan->file->arithmetic,
+									plan->file->method, &plan->limits, &watch, &outcome->failure, why);
+	if (outcome->failed) snprintf(outcome->error, STORE_ERROR, "%s", why);
+	outcome->interrupted = outcome->failure.stopped;
 }
 
 /* Writes the particles as they are now; their species and the box are those of the scene. */
@@ -170,8 +184,11 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	bool ready = plan->limits.events == 0 || equilibrate(outcome, plan, simulation, progress, &before);
 	if (ready && plan->against && plan->limits.events > 0)
 		ready = compare(outcome, plan, simulation, progress, &before);
+	if (ready && plan->trace && !trace_begin(&outcome->trace, simulation->engine))
+		snprintf(outcome->error, STORE_ERROR, "out of memory");
 	outcome->failed = *outcome->error;
-	if (ready) measure(outcome, plan, simulation, progress, before);
+	if (ready && !outcome->failed) measure(outcome, plan, simulation, progress, before);
+	if (ready && plan->failure && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
 	if (plan->xyz && !outcome->failed) write_particles(simulation, plan->xyz, outcome->error);
 }
 
@@ -201,6 +218,7 @@ void outcome_free(struct outcome *outcome)
 	three_body_end(&outcome->three_body);
 	free(outcome->impact);
 	free(outcome->fluxes);
+	trace_free(&outcome->trace);
 }
 
 uint64_t outcome_peak_memory(void)

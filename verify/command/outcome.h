@@ -50,6 +50,11 @@
  *	                       measure/inconsistency.h, by its name, count and per_event, [rate, 95 % interval]; repeats,
  *	                       misses and energy as in measure/misreading.h; repeated, missed, stuck: the first of each,
  *	                       null where there was none: event, time, kind, pair, third (null: none), was, read
+ *	failure                when measured: what (survives, halts, ...: measure/failure.h), event (the first that shows
+ *it, null for none), time, text trace                  with --trace: list of events, each with kind, between [particle,
+ *particle or wall], time, wait (since the later of their last events), separation, steps (that in representable numbers
+ *	                       from contact), stabilising, backwards (measure/trace.h), positions and velocities (left by
+ *	                       it, of both particles)
  *
  * Numbers that do not exist, such as the rate of no collisions, are null. */
 #ifndef VERIFY_OUTCOME_H
@@ -59,10 +64,12 @@
 
 #include "command/simulation.h"
 #include "measure/conservation.h"
+#include "measure/failure.h"
 #include "measure/impact.h"
 #include "measure/inconsistency.h"
 #include "measure/misreading.h"
 #include "measure/three_body.h"
+#include "measure/trace.h"
 
 /* What is to be run, once or several times. */
 struct run_plan {
@@ -72,6 +79,7 @@ struct run_plan {
 	const char *const *settings;
 	size_t setting_count;
 	bool conservation, impact, three_body, states; /* measured? */
+	bool trace, failure;                           /* told event by event? watched for what goes wrong? */
 	const char *xyz;                               /* file for the final configuration, or NULL */
 	const char *against;                           /* a finer arithmetic to find the horizon with, or NULL */
 };
@@ -98,6 +106,8 @@ struct outcome {
 	bool three_bodies;     /* measured: */
 	struct three_body three_body;
 	struct states_outcome *states; /* NULL when not measured; freed by outcome_free */
+	struct trace trace;            /* all zeros when not wanted; freed by outcome_free */
+	struct failure failure;        /* when watched for */
 	size_t virtual_wall_count;
 	struct touchstone_flux (*fluxes)[2]; /* through each; freed by outcome_free */
 	bool failed;                         /* there was no run */
@@ -124,6 +134,10 @@ json_t *outcome_horizons(const struct outcome *outcomes, size_t count);
 
 /* One line of the table for people: what, and the rest as printf has it. */
 __attribute__((format(printf, 2, 3))) void outcome_row(const char *what, const char *format, ...);
+
+/* The events of a run one by one, and what goes wrong in it: lines of the table, and members of a run. */
+void outcome_print_events(const struct run_plan *plan, const struct outcome *outcomes, size_t count);
+void outcome_set_events(json_t *run, const struct run_plan *plan, const struct outcome *outcome);
 
 /* The most memory this program has held so far, in bytes. */
 uint64_t outcome_peak_memory(void);

@@ -183,6 +183,7 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 	json_object_set_new(json, "bits", json_integer(arithmetic_bits(file->arithmetic)));
 	json_object_set_new(json, "method", json_string(file->method));
 	set_run(json, plan, outcomes);
+	outcome_set_events(json, plan, outcomes);
 	json_object_set_new(json, "peak_memory_bytes", whole(outcome_peak_memory()));
 	json_object_set_new(json, "machine", provenance());
 	if (explained) json_object_set(json, "explained", explained);
@@ -191,6 +192,7 @@ json_t *outcome_json(const struct run_plan *plan, const struct outcome *outcomes
 	for (size_t o = 0; o < count; o++) {
 		json_t *run = json_object();
 		set_run(run, plan, &outcomes[o]);
+		outcome_set_events(run, plan, &outcomes[o]);
 		json_array_append_new(runs, run);
 	}
 	json_object_set_new(json, "runs", runs);

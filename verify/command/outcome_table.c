@@ -159,6 +159,7 @@ void outcome_print(const struct run_plan *plan, const struct outcome *outcomes, 
 		print_one(outcomes);
 	else
 		print_each(outcomes, count);
+	outcome_print_events(plan, outcomes, count);
 	if (plan->against) outcome_print_horizon(plan, outcomes, count);
 	print_measures(plan, outcomes, count);
 	outcome_row("memory", "%.0f bytes per particle, %.1f MB at most in all",

@@ -3,17 +3,21 @@
 
 #include <argp.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <omp.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "campaign/campaign.h"
 #include "command/interrupt.h"
 #include "command/progress.h"
+#include "command/table_print.h"
 #include "figure/figure.h"
 
 const struct figure_entry figures[] = {
 	{"fig3", "2014, fig. 3: how far from contact spheres are when they collide", figure_impact},
+	{"fig4", "2014, figs. 4 and 6: three bodies in contact, event by event, by each method", figure_stepping},
 	{"fig5", "2014, fig. 5: how often three bodies meet, over restitution and density", figure_three_body},
 	{"fig7", "2014, section 5 and fig. 7: a ball comes to rest on a plate, or halts", figure_collapse},
 	{"ladder", "2014, fig. 5 at 53 bits: how rates of what goes wrong fall with the bits carried", figure_ladder},
@@ -22,6 +26,7 @@ const struct figure_entry figures[] = {
 	 figure_time_place},
 	{"states", "2016, section 5: wells and shoulders, what positions say of them, and methods that believe it",
 	 figure_states},
+	{"atlas", "what each method does in each stress scene, and from which precision on it survives", figure_atlas},
 	{0},
 };
 enum { FIGURES = sizeof figures / sizeof *figures - 1 };
@@ -86,16 +91,33 @@ static void show(void *context, double part)
 	progress_show(context, 100 * part, 100);
 }
 
+/* What is finished of a figure waits apart from that of other sizes and seeds, until the figure is whole. */
+static bool unfinished(const struct arguments *arguments, char path[PATH_MAX])
+{
+	return snprintf(path, PATH_MAX, "%s/unfinished/%s-%" PRIu64, arguments->results, arguments->full ? "full" : "quick",
+					arguments->seed) < PATH_MAX;
+}
+
+/* Clears it away; folders that hold something else stay. */
+static void forget(int f, char *path)
+{
+	campaign_forget(figures[f].name, path);
+	if (rmdir(path) != 0) return;
+	*strrchr(path, '/') = '\0';
+	rmdir(path);
+}
+
 /* Measures one figure and stores it. */
 static int make(int f, const struct arguments *arguments)
 {
-	char error[REPORT_ERROR], command[120];
+	char error[REPORT_ERROR], command[120], pieces[PATH_MAX];
+	if (!unfinished(arguments, pieces)) return refuse("--results: a path too long");
 	struct progress progress = progress_begin(figures[f].name, "%");
 	struct figure_setup setup = {
 		.full = arguments->full,
 		.seed = arguments->seed,
 		.threads = arguments->threads,
-		.folder = arguments->results,
+		.folder = pieces,
 		.stop = interrupt_flag(),
 		.progress = show,
 		.context = &progress,
@@ -109,9 +131,10 @@ static int make(int f, const struct arguments *arguments)
 	double seconds = progress_clock() - began;
 	result_made_by(result, command, seconds, *TOUCHSTONE_REVISION ? TOUCHSTONE_REVISION : NULL);
 	bool written = result_write(result, arguments->results, error);
+	if (written && figures[f].make == figure_atlas) table_print(result, 0); /* it is one table */
 	result_free(result);
 	if (!written) return refuse("%s", error);
-	if (!interrupted()) campaign_forget(figures[f].name, arguments->results);
+	if (!interrupted()) forget(f, pieces);
 	fprintf(stderr, "%s: %s in %.1f s, stored as %s/%s.json\n", figures[f].name,
 			interrupted() ? "interrupted" : "measured", seconds, arguments->results, figures[f].name);
 	return STATUS_WELL;
@@ -127,7 +150,7 @@ int command_reproduce(int argc, char **argv)
 		.doc = "Measures figures of the papers and stores each as a result, beside what the papers say.\v"
 			   "Figures: all, or those that `touchstone list figures` has.\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
-			   "incomplete.\n\n"
+			   "incomplete; the same call then goes on from there.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",
 	};
 	argp_parse(&argp, argc, argv, 0, NULL, &arguments);

@@ -15,8 +15,26 @@
 
 static const double default_meetings = 100; /* collisions per particle, where nothing limits a run */
 
+static const uint64_t most_traced = 100000; /* events */
+
 /* Options without a letter; the first ones are scene keys of the same name. */
-enum { ARITHMETIC = 256, METHOD, EVENTS, TIME, SEED, SET, EXPLAIN, JSON, XYZ, MEASURE, AGAINST, RUNS, THREADS, CASES };
+enum {
+	ARITHMETIC = 256,
+	METHOD,
+	EVENTS,
+	TIME,
+	SEED,
+	SET,
+	EXPLAIN,
+	JSON,
+	XYZ,
+	MEASURE,
+	AGAINST,
+	TRACE,
+	RUNS,
+	THREADS,
+	CASES
+};
 
 static const struct argp_option options[] = {
 	{"arithmetic", ARITHMETIC, "A", 0,
@@ -33,12 +51,17 @@ static const struct argp_option options[] = {
 	{"explain", EXPLAIN, 0, 0, "First say what is modelled and what is left out. With --events 0, say only that", 2},
 	{"measure", MEASURE, "LIST", 0,
 	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum), three-body (contacts "
-	 "after which a particle overlaps its partner and a third), states (pairs whose positions contradict their "
-	 "tracked state, and whether the method is misled by them)",
+	 "after which a particle overlaps its partner and a third), failure (a second run, watched for what goes wrong "
+	 "first, as in the failure atlas), states (pairs whose positions contradict their tracked state, and whether the "
+	 "method is misled by them)",
 	 2},
 	{"against", AGAINST, "A", 0,
 	 "Run the same start in the finer arithmetic A as well, such as mpfr:256, and say for how many events this run can "
 	 "be trusted: until the two sequences of events first differ",
+	 2},
+	{"trace", TRACE, 0, 0,
+	 "Tell every event: particles, time, separation, velocities after, and whether it is stabilising (at once, on an "
+	 "overlap) or goes back in time. One run, of 100000 events at most",
 	 2},
 	{"json", JSON, "FILE", 0, "Write what came of it as JSON; - for standard output, instead of the table", 2},
 	{"xyz", XYZ, "FILE", 0, "Write the particles at the end as extended XYZ", 2},
@@ -49,7 +72,7 @@ static const struct argp_option options[] = {
 
 struct wish {
 	const char *scene, *json, *xyz, *folder, *against;
-	bool explain, impact, conservation, three_body, states;
+	bool explain, impact, conservation, three_body, trace, failure, states;
 	uint64_t runs, threads;
 	char **settings; /* KEY=VALUE, each from malloc */
 	size_t setting_count;
@@ -65,7 +88,7 @@ static void add_setting(struct wish *wish, const char *key, const char *value)
 
 static void choose_measures(struct wish *wish, char *list)
 {
-	char *const names[] = {"impact", "conservation", "three-body", "states", NULL};
+	char *const names[] = {"impact", "conservation", "three-body", "failure", "states", NULL};
 	while (*list) {
 		char *word = list, *value;
 		switch (getsubopt(&list, names, &value)) {
@@ -79,10 +102,13 @@ static void choose_measures(struct wish *wish, char *list)
 			wish->three_body = true;
 			break;
 		case 3:
+			wish->failure = true;
+			break;
+		case 4:
 			wish->states = true;
 			break;
 		default:
-			refuse_option("measure", word, "impact, conservation, three-body, states, or several with commas");
+			refuse_option("measure", word, "impact, conservation, three-body, failure, states, or several with commas");
 		}
 	}
 }
@@ -106,6 +132,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		return 0;
 	case AGAINST:
 		wish->against = argument;
+		return 0;
+	case TRACE:
+		wish->trace = true;
 		return 0;
 	case JSON:
 		wish->json = argument;
@@ -182,7 +211,8 @@ static int tell(const struct run_plan *plan, const struct wish *wish, const stru
 		if (outcomes[run].failed) return refuse("%s", outcomes[run].error);
 		enum touchstone_verdict verdict = outcomes[run].status.verdict;
 		interrupted |= outcomes[run].interrupted;
-		broken |= verdict == TOUCHSTONE_HALTED || verdict == TOUCHSTONE_DIVERGED;
+		broken |= verdict == TOUCHSTONE_HALTED || verdict == TOUCHSTONE_DIVERGED ||
+				  (plan->failure && !failure_survived(&outcomes[run].failure));
 	}
 	if (!limited(plan->file))
 		fprintf(stderr, "touchstone: neither events nor time given; ran %llu events, so that each particle meets %g\n",
@@ -215,6 +245,7 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		return refuse("--against: %s", reason);
 	struct touchstone_limits limits = file->limits;
 	if (!limited(file)) limits.events = course_events(default_meetings, file->recipe.particle_count);
+	if (wish->trace && limits.events > most_traced) limits.events = most_traced;
 	const struct run_plan plan = {
 		.path = path,
 		.file = file,
@@ -225,6 +256,8 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		.conservation = wish->conservation,
 		.three_body = wish->three_body,
 		.states = wish->states,
+		.trace = wish->trace,
+		.failure = wish->failure,
 		.xyz = wish->xyz,
 		.against = wish->against,
 	};
@@ -251,6 +284,7 @@ static int run(const struct wish *wish)
 	char error[STORE_ERROR];
 	if (wish->xyz && (wish->runs > 1 || strcmp(wish->xyz, "-") == 0))
 		return refuse("--xyz: accepted: a file, and a single run");
+	if (wish->trace && wish->runs > 1) return refuse("--trace: accepted: a single run");
 	if ((wish->json && !output_possible(wish->json, error)) || (wish->xyz && !output_possible(wish->xyz, error)))
 		return refuse("%s", error);
 	const char *folder = cases_folder(wish->folder);
@@ -276,19 +310,19 @@ int command_run(int argc, char **argv)
 		.options = options,
 		.parser = parse,
 		.args_doc = "SCENE",
-		.doc =
-			"Runs a scene and tells what became of it: how many events, its verdict, how fast it was, and a digest "
-			"that is the same for every compiler, optimisation and number of threads. SCENE is a file, or a case by "
-			"its name.\v"
-			"Verdicts: done, a limit was reached or no event is left; collapsed, events go on but time does not; "
-			"halted, the method has no answer; diverged, a number is no longer finite; interrupted, by Ctrl-C.\n\n"
-			"With --against both arithmetics are given the same start: after equilibration the run begins anew, a "
-			"moment "
-			"later, from its state rounded to doubles. Without equilibration it is the run that it is without.\n\n"
-			"Exit status: 0 done or collapsed; 1 halted or diverged; 2 bad input; 130 interrupted, and what was done "
-			"by then is told all the same.\n\n"
-			"Example: touchstone run hard-spheres --set density=0.9 --events 1e6 --measure impact --json -\n"
-			"         touchstone run mixture --against mpfr:256",
+		.doc = "Runs a scene and tells what became of it: how many events, its verdict, how fast it was, and a digest "
+			   "that is the same for every compiler, optimisation and number of threads. SCENE is a file, or a case by "
+			   "its name.\v"
+			   "Verdicts: done, a limit was reached or no event is left; collapsed, events go on but time does not; "
+			   "halted, the method has no answer; diverged, a number is no longer finite; interrupted, by Ctrl-C.\n\n"
+			   "With --against both arithmetics are given the same start: after equilibration the run begins anew, a "
+			   "moment "
+			   "later, from its state rounded to doubles. Without equilibration it is the run that it is without.\n\n"
+			   "Exit status: 0 done or collapsed; 1 halted or diverged, or a failure measured; 2 bad input; 130 "
+			   "interrupted, and what was done "
+			   "by then is told all the same.\n\n"
+			   "Example: touchstone run hard-spheres --set density=0.9 --events 1e6 --measure impact --json -\n"
+			   "         touchstone run mixture --against mpfr:256",
 	};
 	struct wish wish = {.runs = 1, .threads = 1, .settings = calloc((size_t)argc, sizeof(char *))};
 	if (!wish.settings) return refuse("out of memory");

@@ -21,6 +21,8 @@ struct result *figure_impact(const struct figure_setup *setup, char error[512]);
 struct result *figure_three_body(const struct figure_setup *setup, char error[512]); /* 2014, fig. 5 */
 struct result *figure_collapse(const struct figure_setup *setup, char error[512]);   /* 2014, section 5 and fig. 7 */
 struct result *figure_ladder(const struct figure_setup *setup, char error[512]);     /* precision ladder */
+struct result *figure_stepping(const struct figure_setup *setup, char error[512]);   /* 2014, figs. 4 and 6 */
+struct result *figure_atlas(const struct figure_setup *setup, char error[512]);      /* where methods fail */
 struct result *figure_horizon(const struct figure_setup *setup, char error[512]);    /* for how long a run is trusted */
 struct result *figure_time_place(const struct figure_setup *setup, char error[512]); /* late times, far places */
 struct result *figure_states(const struct figure_setup *setup, char error[512]);     /* 2016, section 5 */

@@ -1,13 +1,13 @@
 /* Figure 3 of the 2014 paper: separations at impact of 13 500 hard spheres. */
 #include "figure/figure.h"
 
+#include "campaign/campaign.h"
 #include "measure/course.h"
-#include "measure/impact.h"
+#include "measure/impact_json.h"
 #include "measure/interval.h"
 #include "scene/scene.h"
 #include <inttypes.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 
 static const double densities[] = {0.1, 0.5, 0.9}, restitutions[] = {1, 0.9, 0.5};
@@ -17,33 +17,50 @@ enum { DENSITIES = 3, RESTITUTIONS = 3, FORMS = 2, POINTS = DENSITIES * RESTITUT
 struct point {
 	double density, restitution;
 	enum touchstone_form form;
-	uint64_t collisions; /* wanted */
-	struct impact impact;
-	struct touchstone_status end;
-	bool stopped;
-	char error[320];
+	uint64_t collisions;  /* wanted */
+	struct impact impact; /* empty where there was no time for it */
+	enum touchstone_verdict verdict;
+	double time; /* at the end */
 };
 
-/* What all points share while they run. */
-struct campaign {
-	const struct figure_setup *setup;
-	_Atomic uint64_t done;
-	uint64_t all;
+static const double equilibrate = 20; /* elastic collisions per particle */
+
+static struct point piece_point(const struct figure_setup *setup, size_t piece)
+{
+	static const uint64_t paper = 1000000000, quick = 1000000;
+	return (struct point){
+		.form = piece < POINTS / FORMS ? TOUCHSTONE_ABSOLUTE : TOUCHSTONE_RELATIVE,
+		.density = densities[piece / RESTITUTIONS % DENSITIES],
+		.restitution = restitutions[piece % RESTITUTIONS],
+		.collisions = setup->full ? paper : quick,
+	};
+}
+
+static void piece_key(void *context, size_t piece, char key[CAMPAIGN_KEY])
+{
+	const struct figure_setup *setup = context;
+	struct point point = piece_point(setup, piece);
+	snprintf(key, CAMPAIGN_KEY,
+			 "particles=%d density=%g restitution=%g form=%s equilibrate=%g collisions=%" PRIu64 " seed=%" PRIu64,
+			 SPHERES, point.density, point.restitution, point.form == TOUCHSTONE_ABSOLUTE ? "absolute" : "relative",
+			 equilibrate, point.collisions, setup->seed);
+}
+
+/* How far one run is. */
+struct course {
+	const struct campaign_watch *watch;
+	double done, all; /* events */
 };
 
 static void advance(void *context, uint64_t events, const struct touchstone_status *now)
 {
+	struct course *course = context;
 	(void)now;
-	struct campaign *campaign = context;
-	uint64_t done = atomic_fetch_add(&campaign->done, events) + events;
-#pragma omp critical(figure_progress)
-	if (campaign->setup->progress)
-		campaign->setup->progress(campaign->setup->context, fmin(1, (double)done / (double)campaign->all));
+	course->done += (double)events;
+	course->watch->progress(course->watch, course->done / course->all);
 }
 
-static const double equilibrate = 20; /* elastic collisions per particle */
-
-static void run_point(struct point *point, struct campaign *campaign)
+static struct touchstone_engine *make_engine(const struct point *point, uint64_t seed, char error[CAMPAIGN_ERROR])
 {
 	static const struct scene_species ball = {1, {1, 1}};
 	struct scene_recipe recipe = {
@@ -61,21 +78,33 @@ static void run_point(struct point *point, struct campaign *campaign)
 	};
 	struct touchstone_scene scene;
 	struct scene_error wrong;
-	if (!scene_build(&recipe, campaign->setup->seed, &scene, &wrong)) {
-		snprintf(point->error, sizeof point->error, "%s: %s", wrong.key, wrong.text);
-		return;
+	if (!scene_build(&recipe, seed, &scene, &wrong)) {
+		snprintf(error, CAMPAIGN_ERROR, "%s: %s", wrong.key, wrong.text);
+		return NULL;
 	}
-	struct touchstone_engine *engine = touchstone_create(&scene, "binary64", "stable", point->error);
+	struct touchstone_engine *engine = touchstone_create(&scene, "binary64", "stable", error);
 	scene_free(&scene);
-	if (!engine) return;
-	impact_begin(&point->impact, 53);
-	struct touchstone_observer observer = {impact_see, &point->impact};
-	struct watch watch = {campaign->setup->stop, advance, campaign};
-	struct touchstone_limits limits = {.events = point->collisions, .time = INFINITY};
-	point->stopped =
-		!course_equilibrate(engine, equilibrate, &watch) || !course_run(engine, &limits, &observer, &watch);
-	touchstone_status(engine, &point->end);
+	return engine;
+}
+
+static json_t *make_piece(void *context, size_t piece, const struct campaign_watch *look, char error[CAMPAIGN_ERROR])
+{
+	const struct figure_setup *setup = context;
+	struct point point = piece_point(setup, piece);
+	struct touchstone_engine *engine = make_engine(&point, setup->seed, error);
+	if (!engine) return NULL;
+	impact_begin(&point.impact, 53);
+	struct course course = {look, 0, (double)point.collisions + equilibrate * SPHERES / 2};
+	struct touchstone_observer observer = {impact_see, &point.impact};
+	struct watch watch = {look->stop, advance, &course};
+	struct touchstone_limits limits = {.events = point.collisions, .time = INFINITY};
+	struct touchstone_status end;
+	bool through = course_equilibrate(engine, equilibrate, &watch) && course_run(engine, &limits, &observer, &watch);
+	touchstone_status(engine, &end);
 	touchstone_destroy(engine);
+	if (!through) return NULL;
+	return json_pack("{s:o, s:i, s:o}", "impact", impact_to_json(&point.impact), "verdict", end.verdict, "time",
+					 campaign_number(end.time));
 }
 
 /* Height of a bar: a fraction of the collisions per unit of separation, over the reals that one number stands for. */
@@ -155,7 +184,7 @@ static void add_table(struct result *result, const struct point *points)
 		table_number(table, point->density);
 		table_number(table, point->restitution);
 		table_count(table, impact->count);
-		table_text(table, "%s, t = %.6g", point->stopped ? "stopped" : verdicts[point->end.verdict], point->end.time);
+		table_text(table, "%s, t = %.6g", verdicts[point->verdict], point->time);
 		table_number(table, (double)impact->measured.below / (double)impact->count);
 		table_number(table, (double)impact->exact.below / (double)impact->count);
 		table_text(table, "%.5f to %.5f", interval.low, interval.high);
@@ -249,33 +278,34 @@ static void add_claims(struct result *result, const struct point *points)
 
 struct result *figure_impact(const struct figure_setup *setup, char error[512])
 {
+	const struct campaign campaign = {"fig3", POINTS, piece_key, NULL, make_piece, (void *)setup};
+	json_t *results = campaign_run(&campaign,
+								   &(struct campaign_setup){.folder = setup->folder,
+															.this_revision = true,
+															.threads = setup->threads,
+															.stop = setup->stop,
+															.progress = setup->progress,
+															.context = setup->context},
+								   error);
+	if (!results) return NULL;
 	struct point *points = calloc(POINTS, sizeof *points);
 	struct result *result = result_new("fig3", "How far from contact do spheres collide?");
-	struct campaign campaign = {.setup = setup};
+	size_t finished = campaign_finished(results);
 	if (!points || !result) {
 		snprintf(error, 512, "not enough memory");
-		goto fail;
+		json_decref(results);
+		free(points);
+		result_free(result);
+		return NULL;
 	}
-	uint64_t paper = UINT64_C(1000000000), quick = 1000000;
-	for (int i = 0; i < POINTS; i++) {
-		struct point *point = &points[i];
-		point->form = i < POINTS / FORMS ? TOUCHSTONE_ABSOLUTE : TOUCHSTONE_RELATIVE;
-		point->density = densities[i / RESTITUTIONS % DENSITIES];
-		point->restitution = restitutions[i % RESTITUTIONS];
-		point->collisions = setup->full ? paper : quick;
-		campaign.all += point->collisions + (uint64_t)(equilibrate * SPHERES / 2);
+	for (size_t p = 0; p < POINTS; p++) {
+		const json_t *found = json_array_get(results, p);
+		points[p] = piece_point(setup, p);
+		points[p].impact = impact_from_json(json_object_get(found, "impact"));
+		points[p].verdict = (enum touchstone_verdict)json_integer_value(json_object_get(found, "verdict"));
+		points[p].time = campaign_value(found, "time");
 	}
-#pragma omp parallel for schedule(dynamic, 1) num_threads(setup->threads)
-	for (int i = 0; i < POINTS; i++)
-		if (!(setup->stop && *setup->stop)) run_point(&points[i], &campaign);
-	bool stopped = false;
-	for (int i = 0; i < POINTS; i++) {
-		if (points[i].error[0]) {
-			snprintf(error, 512, "%s", points[i].error);
-			goto fail;
-		}
-		stopped |= points[i].stopped || !points[i].impact.count;
-	}
+	json_decref(results);
 	result_paragraph(
 		result,
 		"%d hard spheres under periodic boundary conditions, run by the stable method in binary64; at each "
@@ -294,13 +324,9 @@ struct result *figure_impact(const struct figure_setup *setup, char error[512])
 						"gases ran before counting.");
 	result_note(result, "The relative form counts times from a page that is turned and positions from the middle of a "
 						"place; its rows in the table show how much of the spread the paper's absolute form brings.");
-	if (stopped)
-		result_incomplete(result, "interrupted after %" PRIu64 " of %" PRIu64 " events", (uint64_t)campaign.done,
-						  campaign.all);
+	if (finished < POINTS)
+		result_incomplete(result, "interrupted after %zu of %d runs; the next call goes on from there", finished,
+						  (int)POINTS);
 	free(points);
 	return result;
-fail:
-	free(points);
-	result_free(result);
-	return NULL;
 }

@@ -245,7 +245,7 @@ static size_t add_fault(struct plugin *plugin, struct trial *trial, enum reply r
 	if (at < first || at >= count) at = first; /* it has overwritten what it should not */
 	struct plugin_fault fault = fault_of(plugin, reply);
 	fault.question = done + at;
-	fault.alone = happens_alone(plugin, at, &fault);
+	fault.alone = !plugin->patience.once && happens_alone(plugin, at, &fault);
 	plugin->exchange->answer[at] = NAN;
 	trial->loops += fault.endless;
 	trial->crashes += !fault.endless;

@@ -27,6 +27,7 @@ struct plugin_fault {
 struct plugin_patience {
 	double seconds;           /* without an answer until a loop is called endless */
 	size_t crashes, loops;    /* in one plugin_find, until it is given up */
+	bool once;                /* do not ask again whether a fault happens alone */
 	const volatile int *stop; /* non-zero: give up now; may be NULL */
 };
 

@@ -68,19 +68,13 @@ static bool read_texts(struct scene_source *source, const char *path, size_t set
 	return true;
 }
 
-static char *stem(const char *path)
-{
-	const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
-	return strndup(base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
-}
-
 struct scene_file *scene_file_open(const char *path, size_t setting_count, const char *const settings[],
 								   char error[STORE_ERROR])
 {
 	struct scene_file *file = calloc(1, sizeof *file);
 	if (file) file->source = calloc(1, sizeof *file->source);
 	if (file && file->source) {
-		file->name = stem(path);
+		file->name = text_stem(path);
 		file->source->texts = calloc(1 + setting_count, sizeof *file->source->texts);
 	}
 	if (!file || !file->source || !file->name || !file->source->texts)

@@ -100,6 +100,9 @@ static const cyaml_schema_field_t fields[] = {
 	CYAML_FIELD_ENUM_PTR("search", CHOICE, struct scene_words, search, searches, CYAML_ARRAY_LEN(searches)),
 	CYAML_FIELD_STRING_PTR("cell", WORD, struct scene_words, cell, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("clock", WORD, struct scene_words, clock, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("contact_time", WORD, struct scene_words, contact_time, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("shrinking", WORD, struct scene_words, shrinking, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("search_step", WORD, struct scene_words, search_step, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("events", WORD, struct scene_words, events, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("time", WORD, struct scene_words, time, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_END};

@@ -41,6 +41,7 @@ struct start_words {
 struct scene_words {
 	char *title, *about, *dimensions, *particles, *density, *restitution, *boundary_restitution;
 	char *equilibrate, *seed, *method, *arithmetic, *cell, *clock, *events, *time;
+	char *contact_time, *shrinking, *search_step;
 	int *form, *search; /* enum touchstone_form, enum touchstone_search */
 	char **box, **gravity;
 	int *boundaries;                          /* enum scene_boundary */

@@ -265,6 +265,16 @@ static bool read_space(struct scene_file *file, char *error)
 							 error);
 }
 
+/* What methods leave open. */
+static bool read_method(struct scene_file *file, char *error)
+{
+	const struct scene_words *words = file->source->words;
+	struct scene_recipe *recipe = &file->recipe;
+	return value_number(file, "contact_time", words->contact_time, VALUE_POSITIVE, &recipe->contact_time, error) &&
+		   value_number(file, "shrinking", words->shrinking, VALUE_POSITIVE, &recipe->shrinking, error) &&
+		   value_number(file, "search_step", words->search_step, VALUE_POSITIVE, &recipe->search_step, error);
+}
+
 static bool read_run(struct scene_file *file, char *error)
 {
 	const struct scene_words *words = file->source->words;
@@ -286,6 +296,6 @@ static bool read_run(struct scene_file *file, char *error)
 
 bool scene_words_understand(struct scene_file *file, char error[STORE_ERROR])
 {
-	return read_space(file, error) && read_run(file, error) && read_walls(file, error) && read_species(file, error) &&
-		   read_start(file, error) && interaction_words_understand(file, error);
+	return read_space(file, error) && read_run(file, error) && read_method(file, error) && read_walls(file, error) &&
+		   read_species(file, error) && read_start(file, error) && interaction_words_understand(file, error);
 }

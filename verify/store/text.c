@@ -35,6 +35,12 @@ bool text_count(const char *text, uint64_t *value)
 	return true;
 }
 
+char *text_stem(const char *path)
+{
+	const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
+	return strndup(base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
+}
+
 void text_one_line(char *message)
 {
 	for (; *message; message++)

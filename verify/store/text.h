@@ -19,6 +19,9 @@ bool text_count(const char *text, uint64_t *value);
 /* The text, shortened where it is long, with what does not print replaced. Returns `shown`. */
 const char *text_shown(char shown[TEXT_SHOWN], const char *text);
 
+/* The name of a file without folder and ending, to be freed; NULL when out of memory. */
+char *text_stem(const char *path);
+
 /* Replaces what does not print, so that a message stays on one line. */
 void text_one_line(char *message);
 

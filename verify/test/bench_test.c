@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "bench/instructions.h"
-#include "bench/spread.h"
+#include "measure/spread.h"
 #include "bench/timing.h"
 #include "scene/random.h"
 #include "test/folder.h"

@@ -13,8 +13,8 @@ static char *folder; /* for this program's files */
 static void every_command_helps(void **state)
 {
 	(void)state;
-	static const char *const commands[] = {"",       "list ",   "run ",      "reproduce ", "grade ",
-										   "chart ", "replay ", "campaign ", "merge ",     "report "};
+	static const char *const commands[] = {"",        "list ",  "run ",      "reproduce ", "grade ", "chart ",
+										   "replay ", "audit ", "campaign ", "merge ",     "report "};
 	for (size_t c = 0; c < sizeof commands / sizeof *commands; c++) {
 		struct said help = program_run("%s--help", commands[c]), version = program_run("%s--version", commands[c]);
 		char usage[64];
@@ -57,7 +57,8 @@ static void listings_are_complete(void **state)
 	const struct family *family;
 	for (size_t n = 0; (family = family_at(n)); n++) assert_non_null(strstr(families.out, family->name));
 	assert_non_null(strstr(families.out, "harvested; ball-ball ball-plane half-space\n"));
-	assert_int_equal(program_lines(cases.out), folder_count("cases", ".yaml"));
+	assert_int_equal(program_lines(cases.out), folder_count("cases", ".yaml") + folder_count("cases/stress", ".yaml"));
+	assert_non_null(strstr(cases.out, "  stress/corner"));
 	assert_non_null(strstr(cases.out, "bouncing-ball"));
 	struct said *const said[] = {&all, &methods, &cases, &arithmetics, &families, &figures};
 	for (int s = 0; s < 6; s++) {
@@ -103,7 +104,7 @@ static void bad_usage_is_one_line(void **state)
 	static const struct {
 		const char *arguments, *words;
 	} wrong[] = {
-		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, replay, campaign"},
+		{"assay", "no command 'assay'; accepted: list, run, reproduce, grade, chart, replay, audit, campaign"},
 		{"run", "no scene"},
 		{"run cradle column", "second scene"},
 		{"run nowhere.yaml", "nowhere.yaml: no such file"},
@@ -135,7 +136,7 @@ static void bad_usage_is_one_line(void **state)
 	for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++)
 		program_refused(program_run("%s", wrong[w].arguments), wrong[w].words);
 	static const char *const unknown[] = {"--frob",       "list --frob",   "run --frob",   "reproduce --frob",
-										  "grade --frob", "replay --frob", "report --frob"};
+										  "grade --frob", "replay --frob", "audit --frob", "report --frob"};
 	for (int u = 0; u < 7; u++) {
 		struct said said = program_run("%s", unknown[u]);
 		if (said.status != 2 || !strstr(said.err, "unrecognized option '--frob'"))

@@ -1,6 +1,6 @@
 /* What repeated measurements say together. */
-#ifndef VERIFY_BENCH_SPREAD_H
-#define VERIFY_BENCH_SPREAD_H
+#ifndef VERIFY_SPREAD_H
+#define VERIFY_SPREAD_H
 
 #include <stddef.h>
 

@@ -1,4 +1,4 @@
-#include "bench/spread.h"
+#include "measure/spread.h"
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>

@@ -1,0 +1,280 @@
+#include "measure/failure.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "measure/conservation.h"
+
+enum { PATIENCE = 10 }; /* checks in which an overlap may clear */
+
+/* A run under watch. */
+struct run {
+	const struct touchstone_scene *scene;
+	struct touchstone_engine *engine;
+	double (*position)[3];
+	bool elastic;
+	struct conservation begin;
+	double lowest; /* energy, over its scale at the start and from there */
+	double clock;  /* at the last check */
+};
+
+/* Two particles, or a particle and a wall. */
+struct overlap {
+	uint32_t first, second;
+	bool wall;
+	double depth; /* how near, over the contact distance */
+};
+
+static bool loses_nothing(struct touchstone_restitution law)
+{
+	return law.law == TOUCHSTONE_CONSTANT ? law.coefficient == 1 : law.coefficient == 0;
+}
+
+static bool is_elastic(const struct touchstone_scene *scene)
+{
+	bool elastic = loses_nothing(scene->restitution);
+	for (size_t w = 0; w < scene->wall_count; w++) elastic &= loses_nothing(scene->walls[w].restitution);
+	for (size_t p = 0; p < scene->potential_count; p++) elastic &= loses_nothing(scene->potentials[p].restitution);
+	return elastic;
+}
+
+static bool run_begin(struct run *run, const struct touchstone_scene *scene, double collisions, const char *arithmetic,
+					  const char *method, const struct watch *watch, char error[160])
+{
+	struct touchstone_status status;
+	*run = (struct run){.scene = scene, .elastic = is_elastic(scene)};
+	run->engine = touchstone_create(scene, arithmetic, method, error);
+	run->position = malloc(scene->particle_count * sizeof *run->position);
+	if (run->engine && !run->position) snprintf(error, 160, "not enough memory");
+	if (!run->engine || !run->position) return false;
+	if (collisions > 0) course_equilibrate(run->engine, collisions, watch);
+	touchstone_status(run->engine, &status);
+	run->clock = status.time;
+	run->begin = conservation_of(scene, run->engine);
+	return true;
+}
+
+static void run_end(struct run *run)
+{
+	touchstone_destroy(run->engine);
+	free(run->position);
+}
+
+static bool read_positions(struct run *run)
+{
+	bool finite = true;
+	for (uint32_t p = 0; p < run->scene->particle_count; p++) {
+		double velocity[3];
+		touchstone_state(run->engine, p, run->position[p], velocity);
+		for (int axis = 0; axis < run->scene->dimensions; axis++)
+			finite &= isfinite(run->position[p][axis]) && isfinite(velocity[axis]);
+	}
+	return finite;
+}
+
+static double diameter(const struct run *run, uint32_t p)
+{
+	return run->scene->species[run->scene->particles[p].species].diameter;
+}
+
+/* Distance of two particles, nearest images, over that of their contact. Cores of potentials do not count. */
+static double nearness(const struct run *run, uint32_t p, uint32_t q)
+{
+	const struct touchstone_scene *scene = run->scene;
+	double square = 0, contact = (diameter(run, p) + diameter(run, q)) / 2;
+	for (int axis = 0; axis < scene->dimensions; axis++) {
+		double offset = run->position[p][axis] - run->position[q][axis];
+		if (scene->periodic[axis]) offset -= scene->box[axis] * rint(offset / scene->box[axis]);
+		square += offset * offset;
+	}
+	return sqrt(square) / contact;
+}
+
+static double nearness_to_wall(const struct run *run, uint32_t p, size_t w)
+{
+	const struct touchstone_wall *wall = &run->scene->walls[w];
+	double distance = 0;
+	for (int axis = 0; axis < run->scene->dimensions; axis++)
+		distance += wall->normal[axis] * (run->position[p][axis] - wall->point[axis]);
+	return 2 * distance / diameter(run, p);
+}
+
+static double depth_of(const struct run *run, const struct overlap *overlap)
+{
+	return overlap->wall ? nearness_to_wall(run, overlap->first, overlap->second)
+						 : nearness(run, overlap->first, overlap->second);
+}
+
+/* The deepest overlap, if one is deep. */
+static bool find_deep(const struct run *run, struct overlap *deep)
+{
+	uint32_t count = (uint32_t)run->scene->particle_count;
+	*deep = (struct overlap){.depth = failure_depth};
+	for (uint32_t p = 0; p < count && run->scene->potential_count == 0; p++)
+		for (uint32_t q = 0; q < p; q++) {
+			double near = nearness(run, p, q);
+			if (near < deep->depth) *deep = (struct overlap){q, p, false, near};
+		}
+	for (uint32_t p = 0; p < count; p++)
+		for (uint32_t w = 0; w < run->scene->wall_count; w++) {
+			double near = nearness_to_wall(run, p, w);
+			if (near < deep->depth) *deep = (struct overlap){p, w, true, near};
+		}
+	return deep->depth < failure_depth;
+}
+
+__attribute__((format(printf, 4, 5))) static bool fail(const struct run *run, struct failure *failure,
+													   enum failure_kind kind, const char *format, ...)
+{
+	struct touchstone_status status;
+	touchstone_status(run->engine, &status);
+	va_list arguments;
+	va_start(arguments, format);
+	vsnprintf(failure->text, sizeof failure->text, format, arguments);
+	va_end(arguments);
+	failure->kind = kind;
+	failure->event = failure->events = status.events;
+	failure->time = status.time;
+	return true;
+}
+
+static bool judge_energy(struct run *run, struct failure *failure)
+{
+	struct conservation now = conservation_of(run->scene, run->engine);
+	double change = conservation_energy_drift(&run->begin, &now);
+	if (!isfinite(change)) return false; /* at rest from the start */
+	run->lowest = fmin(run->lowest, change);
+	double gain = run->elastic ? change : change - run->lowest;
+	if (gain > failure_energy)
+		return fail(run, failure, FAILURE_GAINS_ENERGY, "the energy has risen by %.3g of its scale", gain);
+	if (run->elastic && change < -failure_energy)
+		return fail(run, failure, FAILURE_DRIFTS, "the energy has fallen by %.3g of its scale", -change);
+	return false;
+}
+
+/* Judges the state of a run between events. An overlap is left in `deep`, to be judged later. */
+static bool judge(struct run *run, struct failure *failure, struct overlap *deep)
+{
+	struct touchstone_status status;
+	touchstone_status(run->engine, &status);
+	deep->depth = 1;
+	if (status.verdict == TOUCHSTONE_HALTED) return fail(run, failure, FAILURE_HALTS, "%s", status.reason);
+	if (status.verdict == TOUCHSTONE_DIVERGED) return fail(run, failure, FAILURE_NOT_FINITE, "%s", status.reason);
+	if (!read_positions(run)) return fail(run, failure, FAILURE_NOT_FINITE, "a coordinate is no longer finite");
+	if (status.time < run->clock)
+		return fail(run, failure, FAILURE_BACKWARDS, "the clock stands at %.9g and has been at %.9g", status.time,
+					run->clock);
+	if (find_deep(run, deep))
+		return fail(run, failure, FAILURE_PASSES, "particle %u is at %.3g of the contact distance from %s %u",
+					deep->first, deep->depth, deep->wall ? "wall" : "particle", deep->second);
+	if (judge_energy(run, failure)) return true;
+	if (status.verdict == TOUCHSTONE_COLLAPSED)
+		return run->elastic ? fail(run, failure, FAILURE_LOOPS, "%s", status.reason)
+							: fail(run, failure, FAILURE_REST, "%s", status.reason);
+	return false;
+}
+
+/* Advances by so many events, no further than the limits; false when nothing more is to be run. */
+static bool advance(const struct run *run, uint64_t events, const struct touchstone_limits *limits,
+					const struct watch *watch)
+{
+	struct touchstone_status before, after;
+	touchstone_status(run->engine, &before);
+	uint64_t left = limits->events - before.events;
+	struct touchstone_limits part = {events < left ? events : left, limits->time, watch ? watch->stop : NULL};
+	touchstone_run(run->engine, &part, NULL);
+	touchstone_status(run->engine, &after);
+	if (watch && watch->progress) watch->progress(watch->context, after.events - before.events, &after);
+	return after.verdict == TOUCHSTONE_DONE && after.events < limits->events &&
+		   after.events - before.events == part.events;
+}
+
+/* An overlap that stays is an entanglement. */
+static void wait_for_parting(const struct run *run, const struct overlap *deep, uint64_t stride,
+							 const struct touchstone_limits *limits, const struct watch *watch, struct failure *failure)
+{
+	bool stays = true, goes_on = true;
+	int checks = 0;
+	for (; stays && goes_on && checks < PATIENCE; checks++) {
+		goes_on = advance(run, stride, limits, watch);
+		stays = read_positions((struct run *)run) && depth_of(run, deep) < 1;
+	}
+	if (stays && checks > 0 && !deep->wall) failure->kind = FAILURE_ENTANGLES;
+}
+
+/* Runs until something is wrong. Returns the number of events at the last check that found nothing. */
+static uint64_t run_checked(struct run *run, uint64_t stride, const struct touchstone_limits *limits,
+							const struct watch *watch, struct failure *failure)
+{
+	struct touchstone_status status;
+	struct overlap deep;
+	for (uint64_t good = 0;;) {
+		bool goes_on = advance(run, stride, limits, watch);
+		if (judge(run, failure, &deep)) {
+			if (failure->kind == FAILURE_PASSES) wait_for_parting(run, &deep, stride, limits, watch, failure);
+			return good;
+		}
+		touchstone_status(run->engine, &status);
+		good = failure->events = status.events;
+		run->clock = status.time;
+		failure->stopped = watch && watch->stop && *watch->stop;
+		if (!goes_on && !failure->stopped && good < limits->events && limits->time == INFINITY)
+			fail(run, failure, FAILURE_OVER, "after %llu events, at t = %.9g", (unsigned long long)good, status.time);
+		if (!goes_on || failure->stopped) return good;
+	}
+}
+
+/* The first event that shows what was found: the run again, event by event after the last good check. */
+static void find_first(struct run *run, uint64_t good, const struct touchstone_limits *limits,
+					   const struct watch *watch, struct failure *failure)
+{
+	struct failure first = {0};
+	struct overlap deep;
+	const struct watch quiet = {watch ? watch->stop : NULL, NULL, NULL};
+	struct touchstone_status status;
+	if (good > 0) advance(run, good, limits, &quiet);
+	touchstone_status(run->engine, &status);
+	run->clock = status.time;
+	if (judge(run, &first, &deep)) return;
+	while (first.kind == FAILURE_NONE && advance(run, 1, limits, &quiet)) judge(run, &first, &deep);
+	if (first.kind == FAILURE_NONE) judge(run, &first, &deep);
+	if (first.kind == FAILURE_NONE) return;
+	if (first.kind != FAILURE_PASSES || failure->kind != FAILURE_ENTANGLES) failure->kind = first.kind;
+	failure->event = first.event;
+	failure->time = first.time;
+	memcpy(failure->text, first.text, sizeof failure->text);
+}
+
+bool failure_find(const struct touchstone_scene *scene, double collisions, const char *arithmetic, const char *method,
+				  const struct touchstone_limits *limits, const struct watch *watch, struct failure *failure,
+				  char error[160])
+{
+	struct run run;
+	uint64_t stride = scene->particle_count / 2 + 1, good = 0;
+	*failure = (struct failure){0};
+	bool made = run_begin(&run, scene, collisions, arithmetic, method, watch, error);
+	struct touchstone_limits until = *limits;
+	if (made) {
+		until.time += run.clock;
+		good = run_checked(&run, stride, &until, watch, failure);
+	}
+	run_end(&run);
+	if (!made || failure_survived(failure)) {
+		if (failure->kind == FAILURE_REST) failure->event = 0;
+		return made;
+	}
+	made = run_begin(&run, scene, collisions, arithmetic, method, watch, error);
+	if (made) find_first(&run, good, &until, watch, failure);
+	run_end(&run);
+	return made;
+}
+
+const char *failure_word(enum failure_kind kind)
+{
+	static const char *const words[] = {"survives",  "rests",     "no events", "drifts", "gains energy", "penetrates",
+										"entangles", "runs back", "loops",     "halts",  "not finite"};
+	return words[kind];
+}
