@@ -124,6 +124,11 @@ double touchstone_temperature(const struct touchstone_engine *engine, uint32_t p
 	return unit_of(engine)->temperature(engine, particle);
 }
 
+void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach, void *context)
+{
+	unit_of(engine)->observe_tests(engine, tested, reach, context);
+}
+
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 						  double contact[TOUCHSTONE_MOST_TERMS])
 {
@@ -191,9 +196,14 @@ static const char *const finder_names[] = {
 	"search", "shrink", "tc",      "numerical-recipes", "kahan",   "sterbenz", "textbook-epsilon"};
 enum { FINDERS = sizeof finder_names / sizeof *finder_names, POLICIES = 10 };
 
+/* Those that are a policy around the finders of another. */
+static const char *const policy_names[] = {"positional", "stretch", "nudge", "last-event"};
+enum { BORROWERS = sizeof policy_names / sizeof *policy_names };
+
 const char *touchstone_method_name(size_t number)
 {
-	return number < POLICIES ? finder_names[number] : NULL;
+	if (number < POLICIES) return finder_names[number];
+	return number < POLICIES + BORROWERS ? policy_names[number - POLICIES] : NULL;
 }
 
 const char *touchstone_finder_name(size_t number)

@@ -175,6 +175,14 @@ struct touchstone_observer {
 	void *context;
 };
 
+/* A pair that has a potential with steps and is tested because one of the two has just had an event. */
+struct touchstone_test {
+	uint32_t first, second; /* numbered as in the scene; first is the smaller */
+	int state;              /* tracked, or as a method that reads states from positions has just read it */
+	int within, step;       /* how many steps it is within, in the working arithmetic; and outside of the nearest one */
+	double excess; /* |r|^2 / d^2 - 1 at that step's distance d, in the working arithmetic, rounded to double */
+};
+typedef void touchstone_tested(void *context, struct touchstone_engine *engine, const struct touchstone_test *test);
 struct touchstone_limits {
 	uint64_t events;          /* physical events to execute at most, in this call */
 	double time;              /* no event later than this is executed; INFINITY for no limit */
@@ -246,9 +254,13 @@ void touchstone_state(const struct touchstone_engine *engine, uint32_t particle,
 /* The temperature a particle carries, rounded to double; NaN in a scene without convection. */
 double touchstone_temperature(const struct touchstone_engine *engine, uint32_t particle);
 
-/* During an observer's call: the exact relative position, first minus second particle, of the pair whose event it is.
- * terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact receives the
- * distance of the event (contact, or the step) in the same way, filled with zeros. */
+/* From here on `tested` is told of pairs (and images) that the search after an event tests: those in a state other than
+ * 0, or no farther apart than `reach` times their outermost step. NULL: nobody is, at no cost. */
+void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach, void *context);
+
+/* During an observer's call: the exact relative position, first minus second particle, of the pair whose event or test
+ * it is. terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact receives the
+ * distance of the event (contact, or the step; of a test the nearest step) in the same way, filled with zeros. */
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 						  double contact[TOUCHSTONE_MOST_TERMS]);
 

@@ -195,6 +195,11 @@ static inline void part(struct touchstone_engine *engine, const struct encounter
 		first->velocity[axis] = sub(first->velocity[axis], mul(to_first, encounter->r[axis]));
 		second->velocity[axis] = add(second->velocity[axis], mul(to_second, encounter->r[axis]));
 	}
+	if (engine->method->policy & POLICY_NUDGE) {
+		bool inside = event->kind == TOUCHSTONE_CAPTURE ||
+					  (event->kind == TOUCHSTONE_BOUNCE && !less(encounter->rv, from_double(0)));
+		nudge(engine, i, j, encounter->r, encounter->rr, at, inside, divide(to_first, add(to_first, to_second)));
+	}
 	record(engine, rank_of(engine, i, encounter->entry, (uint8_t)event->kind));
 	engine->kinds[event->kind]++;
 	engine->itinerary[i].changes++;

@@ -30,7 +30,7 @@ static void engine_destroy(struct touchstone_engine *engine)
 					 engine->radius,         engine->mass,           engine->wall,      engine->candidate[0],
 					 engine->shadows.shadow, engine->shadows.radius, engine->potential, engine->potential_of,
 					 engine->virtual_wall,   engine->side,           engine->crossed,   engine->captured,
-					 engine->temperature};
+					 engine->temperature,    engine->last_met};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -195,6 +195,17 @@ static bool set_sieve(struct touchstone_engine *engine)
 	return shadows->shadow;
 }
 
+/* What the method's policy needs: a time in which a pair comes beyond rounding, as its file has it; and memory. */
+static bool set_policy(struct touchstone_engine *engine)
+{
+	double speed = typical_speed(engine);
+	engine->correction_time = from_double(speed > 0 ? ldexp(correction, -engine->bits) * engine->reach / speed : 0);
+	if (!(engine->method->policy & POLICY_LAST_EVENT)) return true;
+	engine->last_met = malloc(engine->count * sizeof *engine->last_met);
+	for (uint32_t i = 0; engine->last_met && i < engine->count; i++) engine->last_met[i] = nobody;
+	return engine->last_met;
+}
+
 static bool scene_makes_sense(const struct touchstone_scene *scene, char error[160])
 {
 	if (scene->dimensions < 1 || scene->dimensions > 3)
@@ -246,7 +257,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
 	bool made = set_species_and_walls(engine, scene) && set_potentials(engine, scene) &&
 				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_heat(engine, scene) &&
-				set_sieve(engine);
+				set_sieve(engine) && set_policy(engine);
 	if (made) read_policy(engine, scene);
 	*error = '\0';
 	made = made && (snapshot ? take_in(engine, snapshot, error) : begin(engine));

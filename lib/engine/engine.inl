@@ -60,6 +60,12 @@ extern const struct unit THIS_UNIT;
 #include "engine/motion.inl"
 
 #include "engine/potential.inl"
+
+#include "method/last_event.inl"
+#include "method/nudge.inl"
+#include "method/positional.inl"
+#include "method/stretch.inl"
+
 #include "engine/shadow.inl"
 
 #include "engine/search.inl"
@@ -73,6 +79,7 @@ extern const struct unit THIS_UNIT;
 #include "engine/layout.inl"
 #include "engine/overlaps.inl"
 #include "engine/step.inl"
+#include "engine/tested.inl"
 
 #include "engine/rescale.inl"
 #include "engine/run.inl"

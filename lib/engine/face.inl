@@ -52,6 +52,14 @@ static void engine_recount(struct touchstone_engine *engine)
 	engine->digest = first_digest;
 }
 
+static void engine_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach,
+								 void *context)
+{
+	engine->tested = tested;
+	engine->tested_reach = reach;
+	engine->tested_context = context;
+}
+
 static void engine_elastic(struct touchstone_engine *engine, bool elastic)
 {
 	engine->elastic = elastic;
@@ -79,6 +87,10 @@ static int engine_separation(const struct touchstone_engine *engine, double term
 							 double contact[TOUCHSTONE_MOST_TERMS])
 {
 	uint32_t i = engine->touching[0], j = engine->touching[1];
+	if (engine->tested_offset) {
+		write_contact(engine->touching_distance, contact);
+		return tested_terms(engine, terms);
+	}
 	const struct standing first = {engine->body[i], engine->place[i]}, second = {engine->body[j], engine->place[j]};
 	write_contact(engine->touching_distance, contact);
 	return separation_terms(engine, &first, &second, engine->touching_image, terms);
@@ -142,15 +154,28 @@ static void explain_states(const struct touchstone_engine *engine, void (*line)(
 		line(context, text);
 	}
 	if (engine->pairs.bucket) {
+		bool positional = engine->method->policy & POLICY_POSITIONAL;
 		snprintf(text, sizeof text,
-				 "pair states: tracked, since at a step positions cannot tell in from out; stored for the %llu pairs "
-				 "within a step, in %.3g bytes per particle",
+				 "pair states: %s; stored for the %llu pairs within a step, in %.3g bytes per particle",
+				 positional ? "read from separations whenever a pair is tested, as the method has it, though at a step "
+							  "they cannot tell in from out"
+							: "tracked, since at a step positions cannot tell in from out",
 				 (unsigned long long)engine->pairs.count, (double)pairs_memory(&engine->pairs) / engine->count);
 		line(context, text);
 	}
-	if (!engine->virtual_wall_count) return;
-	snprintf(text, sizeof text, "virtual walls: %zu; the side each particle is on is tracked, and nothing moves",
-			 engine->virtual_wall_count);
+	if (engine->last_met) line(context, "last partners: one per particle, since the method knows who has just met");
+	if (engine->cells.entry)
+		line(context,
+			 "cells and images: tracked; particles change them by leaving through a face, where positions cannot "
+			 "tell either");
+	if (engine->virtual_wall_count)
+		snprintf(
+			text, sizeof text,
+			"virtual walls: %zu; the side each particle is on is tracked, since on a wall positions cannot tell, and "
+			"nothing moves",
+			engine->virtual_wall_count);
+	else
+		snprintf(text, sizeof text, "virtual walls: none, so no sides");
 	line(context, text);
 }
 
@@ -213,6 +238,7 @@ const struct unit THIS_UNIT = {
 	.rescale = engine_rescale,
 	.state = engine_state,
 	.temperature = engine_temperature,
+	.observe_tests = engine_observe_tests,
 	.separation = engine_separation,
 	.overlaps = engine_overlaps,
 	.pair_state = engine_pair_state,

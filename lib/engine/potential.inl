@@ -47,6 +47,12 @@ static struct touchstone_restitution restitution_between(const struct touchstone
 	return potential ? potential->restitution : engine->restitution;
 }
 
+/* Whether a pair with (r.v)^2 = rv^2 and r.r = rr passes a step of this climb. */
+static inline bool climbs(num climb, num rr, num rv)
+{
+	return !less(from_double(0), climb) || less(mul(climb, rr), mul(rv, rv));
+}
+
 /* The potential energy of all pairs together, by their tracked states. */
 static double potential_energy(const struct touchstone_engine *engine)
 {

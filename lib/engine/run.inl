@@ -81,12 +81,15 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 		engine->itinerary[met[p]].entered = 0;
 		cast_shadow(engine, met[p]);
 	}
+	if (engine->last_met) remember_event(engine, met, particles);
 	if (policy & (POLICY_BACKWARDS | POLICY_SEARCH) && far_back(engine)) {
 		engine->search = TOUCHSTONE_ALL; /* from here on */
 		if (!lay_out(engine)) out_of_memory(engine);
 		return;
 	}
+	engine->executing = true;
 	predict_all(engine, met, particles);
+	engine->executing = false;
 	for (int p = 0; p < particles; p++) schedule(engine, met[p]);
 }
 

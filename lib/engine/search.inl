@@ -78,6 +78,20 @@ static void consider(struct touchstone_engine *engine, uint32_t i, const struct 
 		consider_moment(engine, i, moment_on(engine, later->page, add(later->time, wait)), meets, partner, plan);
 }
 
+/* When i and an entry have their event at a distance, by the method's finder for it and by its policy: `step` is the
+ * step they are then at, or NULL at a core. */
+static inline num pair_wait(const struct touchstone_engine *engine, ball_finder *finder, uint32_t i, uint32_t entry,
+							const struct balls *balls, const struct step *step)
+{
+	struct quadratic f;
+	unsigned policy = engine->method->policy;
+	if (!(policy & (POLICY_STRETCH | POLICY_LAST_EVENT))) return finder(balls, &f);
+	struct balls later = *balls;
+	num skipped = skip_least_time(engine, i, entry, &later), wait = add(skipped, finder(&later, &f));
+	return policy & POLICY_STRETCH ? stretched(engine, balls, &f, wait, step, finder == engine->method->ball_ball)
+								   : wait;
+}
+
 /* Weighs the meetings of particle i with so many entries that are not captured. */
 static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const uint32_t *candidate, size_t candidates,
 						   struct plan *plan)
@@ -85,11 +99,14 @@ static void consider_pairs(struct touchstone_engine *engine, uint32_t i, const u
 	bool early = engine->method->policy & POLICY_EARLY;
 	for (size_t k = 0; k < candidates; k++) {
 		struct balls balls;
-		struct quadratic f;
+		uint32_t j = entry_particle(candidate[k]);
 		const struct body *later = relative_state(engine, i, candidate[k], balls.r, balls.v);
-		uint8_t meets = first_meeting(engine, i, entry_particle(candidate[k]), &balls.contact);
+		uint8_t meets = first_meeting(engine, i, j, &balls.contact);
 		if (meets == MEETS_NOTHING) continue;
-		num wait = early ? early_meeting(engine, &balls, &f) : engine->method->ball_ball(&balls, &f);
+		const struct step *step = meets == TOUCHSTONE_CAPTURE ? potential_between(engine, i, j)->step : NULL;
+		struct quadratic f;
+		num wait = early ? early_meeting(engine, &balls, &f)
+						 : pair_wait(engine, engine->method->ball_ball, i, candidate[k], &balls, step);
 		consider(engine, i, later, wait, meets, candidate[k], plan);
 	}
 }
@@ -120,6 +137,8 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
 static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates);
 static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
+static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
+					   const size_t candidates[2], int particles);
 
 /* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
  * together: each step waits for the one before it, and not for the other particle's. */
@@ -136,6 +155,9 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 		uint32_t *const *list = engine->candidate;
 		for (int p = 0; p < particles; p++)
 			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
+		if (captures && engine->method->policy & POLICY_POSITIONAL)
+			for (int p = 0; p < particles; p++) read_all_again(engine, particle[p], list[p], candidates[p]);
+		if (captures && engine->executing && engine->tested) tell_tests(engine, particle, list, candidates, particles);
 		for (int p = 0; captures && p < particles; p++) consider_captured(engine, particle[p], &plan[p]);
 		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
 		for (int p = 0; captures && p < particles; p++)

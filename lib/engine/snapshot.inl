@@ -70,6 +70,9 @@ static struct strips strips_of(struct touchstone_engine *engine)
 	const struct strip heat = {"temperature",       TOUCHSTONE_NUMBERS,         OF_PARTICLES, 1,
 							   engine->temperature, sizeof *engine->temperature};
 	if (engine->temperature) add_strips(&strips, &heat, 1);
+	const struct strip last = {"last_met", TOUCHSTONE_INTEGERS, OF_PARTICLES,
+							   1,          engine->last_met,    sizeof *engine->last_met};
+	if (engine->last_met) add_strips(&strips, &last, 1);
 	size_t walls = engine->virtual_wall_count;
 	if (!walls) return strips;
 	struct touchstone_flux *flux = engine->virtual_wall->flux;
@@ -83,7 +86,8 @@ static struct strips strips_of(struct touchstone_engine *engine)
 		{"flux_against_count", TOUCHSTONE_COUNTS, OF_WALLS, 1, &flux[1].count, sizeof *engine->virtual_wall},
 		{"flux_against", TOUCHSTONE_DOUBLES, OF_WALLS, SUMS, &flux[1].mass, sizeof *engine->virtual_wall},
 	};
-	_Static_assert(sizeof always + sizeof heat + sizeof at_walls < sizeof strips.strip, "and the captured pairs");
+	_Static_assert(sizeof always + sizeof heat + sizeof last + sizeof at_walls < sizeof strips.strip,
+				   "and the captured pairs");
 	add_strips(&strips, at_walls, sizeof at_walls / sizeof *at_walls);
 	return strips;
 }

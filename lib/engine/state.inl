@@ -142,6 +142,9 @@ struct touchstone_engine {
 	num kick, neutral; /* of convection */
 	double thermostat; /* kT of thermal walls; 0: walls are not thermal */
 
+	/* what methods keep that correct or remember: nothing under all others */
+	num correction_time; /* of `stretch` and `last-event` */
+	uint32_t *last_met;  /* per particle, the number of the partner of its last event; NULL but for `last-event` */
 	/* what the method's policy needs (policy.inl) */
 	num contact_time,
 		margin;           /* of POLICY_BRIEF_ELASTIC, and of POLICY_EARLY: how much farther contacts are looked for */
@@ -182,7 +185,12 @@ struct touchstone_engine {
 	char reason[160];
 	uint32_t blamed[2];
 	const struct touchstone_observer *observer;
-	uint32_t touching[2]; /* the pair whose event it is while an observer is called */
+	bool executing;            /* whether the search at hand follows an event */
+	touchstone_tested *tested; /* told of the pairs it tests; NULL: nobody is */
+	void *tested_context;
+	double tested_reach;      /* times the outermost step */
+	const num *tested_offset; /* of the pair that is being told of: first minus second; NULL: none is */
+	uint32_t touching[2];     /* the pair whose event it is while an observer is called */
 	int touching_image[3];
 	num touching_distance;
 };

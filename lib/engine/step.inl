@@ -8,16 +8,17 @@ static void consider_partner(struct touchstone_engine *engine, uint32_t i, struc
 {
 	uint32_t entry = captured.entry, state = captured.state;
 	const struct potential *potential = potential_between(engine, i, entry_particle(entry));
+	const struct step *within = &potential->step[state - 1], *next = within + 1;
 	struct balls balls;
-	struct quadratic f;
 	const struct body *later = relative_state(engine, i, entry, balls.r, balls.v);
-	balls.contact = potential->step[state - 1].distance;
-	consider(engine, i, later, engine->method->ball_leave(&balls, &f), TOUCHSTONE_RELEASE, entry, plan);
+	balls.contact = within->distance;
+	num wait = pair_wait(engine, engine->method->ball_leave, i, entry, &balls, within);
+	consider(engine, i, later, wait, TOUCHSTONE_RELEASE, entry, plan);
 	bool innermost = state == potential->step_count;
 	if (innermost && !potential->hard) return;
-	balls.contact = innermost ? potential->core : potential->step[state].distance;
-	consider(engine, i, later, engine->method->ball_ball(&balls, &f),
-			 innermost ? TOUCHSTONE_CONTACT : TOUCHSTONE_CAPTURE, entry, plan);
+	balls.contact = innermost ? potential->core : next->distance;
+	wait = pair_wait(engine, engine->method->ball_ball, i, entry, &balls, innermost ? NULL : next);
+	consider(engine, i, later, wait, innermost ? TOUCHSTONE_CONTACT : TOUCHSTONE_CAPTURE, entry, plan);
 }
 
 /* The same with all of them, as far as the sieve lets them pass. */
@@ -93,8 +94,8 @@ static void meet_step(struct touchstone_engine *engine, uint32_t i, uint32_t ent
 	const struct potential *potential = potential_between(engine, i, encounter.j);
 	uint32_t state = pairs_get(&engine->pairs, i, entry), passed = inwards ? state + 1 : state - 1;
 	const struct step *step = &potential->step[inwards ? state : state - 1];
-	num climb = inwards ? step->climb : negated(step->climb), zero = from_double(0), rv = encounter.rv;
-	bool passes = !less(zero, climb) || less(mul(climb, encounter.rr), mul(rv, rv));
+	num climb = inwards ? step->climb : negated(step->climb), rv = encounter.rv;
+	bool passes = climbs(climb, encounter.rr, rv);
 	struct touchstone_event event = {
 		.kind = !passes   ? TOUCHSTONE_BOUNCE
 				: inwards ? TOUCHSTONE_CAPTURE

@@ -5,6 +5,11 @@ static const struct method *find_finder(const char *name, enum touchstone_shape 
 	static const char *const shapes[] = {"ball-ball", "ball-leave", "ball-plane", "half-space"};
 	const struct method *method = find_method(name, error);
 	if (!method) return NULL;
+	if (method->policy & POLICY_POSITIONAL) {
+		snprintf(error, 160, "method '%s' has no finder of its own: an engine that runs by it asks those of stable",
+				 name);
+		return NULL;
+	}
 	const bool has[] = {method->ball_ball, method->ball_leave, method->ball_plane, method->half_space};
 	if (has[shape]) return method;
 	snprintf(error, 160, "method '%s' has no finder for %s", name, shapes[shape]);

@@ -78,17 +78,31 @@ static void see(void *context, struct touchstone_engine *engine, const struct to
 	struct outcome *outcome = context;
 	if (outcome->impact) impact_see(outcome->impact, engine, event);
 	if (outcome->three_bodies) three_body_see(&outcome->three_body, engine, event);
+	if (!outcome->states) return;
+	inconsistency_see(&outcome->states->inconsistency, engine, event);
+	misreading_see(&outcome->states->misreading, engine, event);
+}
+
+static void see_test(void *context, struct touchstone_engine *engine, const struct touchstone_test *test)
+{
+	struct states_outcome *states = context;
+	inconsistency_test(&states->inconsistency, engine, test);
+	misreading_test(&states->misreading, engine, test);
 }
 
 static void measure(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 					struct simulation_progress *progress, uint64_t before)
 {
 	struct touchstone_observer observer = {see, outcome};
-	bool observed = outcome->impact || outcome->three_bodies;
+	bool observed = outcome->impact || outcome->three_bodies || outcome->states;
 	struct touchstone_limits limits = plan->limits;
 	touchstone_status(simulation->engine, &outcome->status);
 	if (limits.events < UINT64_MAX) limits.events -= outcome->status.events;
 	limits.time += outcome->time_begun;
+	if (outcome->states) {
+		misreading_begin(&outcome->states->misreading, &simulation->scene, simulation->engine);
+		touchstone_observe_tests(simulation->engine, see_test, inconsistency_reach, outcome->states);
+	}
 	const struct touchstone_observer *look = observed ? &observer : NULL;
 	if (plan->trace) limits.stop = interrupt_flag();
 	outcome->clock_begun = progress_clock() - outcome->wall_seconds;
@@ -161,26 +175,27 @@ static bool compare(struct outcome *outcome, const struct run_plan *plan, struct
 	return true;
 }
 
+/* Makes room for what is measured; false without. */
+static bool begin_measures(struct outcome *outcome, const struct run_plan *plan)
+{
+	int bits = arithmetic_bits(plan->file->arithmetic);
+	if (plan->impact && !(outcome->impact = malloc(sizeof *outcome->impact))) return false;
+	if (plan->impact) impact_begin(outcome->impact, bits);
+	if (plan->three_body) outcome->three_bodies = three_body_begin(&outcome->three_body, outcome->particles);
+	if (plan->three_body && !outcome->three_bodies) return false;
+	if (!plan->states) return true;
+	outcome->states = calloc(1, sizeof *outcome->states);
+	return outcome->states && inconsistency_begin(&outcome->states->inconsistency, bits, outcome->particles);
+}
+
 /* From a start state to an outcome. */
 static void find(struct outcome *outcome, const struct run_plan *plan, struct simulation *simulation,
 				 struct simulation_progress *progress)
 {
-	if (plan->impact) {
-		outcome->impact = malloc(sizeof *outcome->impact);
-		outcome->failed = !outcome->impact;
-		if (outcome->failed) {
-			snprintf(outcome->error, STORE_ERROR, "out of memory");
-			return;
-		}
-		impact_begin(outcome->impact, arithmetic_bits(plan->file->arithmetic));
-	}
-	if (plan->three_body) {
-		outcome->three_bodies = three_body_begin(&outcome->three_body, outcome->particles);
-		outcome->failed = !outcome->three_bodies;
-		if (outcome->failed) {
-			snprintf(outcome->error, STORE_ERROR, "out of memory");
-			return;
-		}
+	outcome->failed = !begin_measures(outcome, plan);
+	if (outcome->failed) {
+		snprintf(outcome->error, STORE_ERROR, "out of memory");
+		return;
 	}
 	size_t walls = simulation->scene.virtual_wall_count;
 	outcome->fluxes = calloc(walls + 1, sizeof *outcome->fluxes);
@@ -228,6 +243,11 @@ void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t
 
 void outcome_free(struct outcome *outcome)
 {
+	if (outcome->states) {
+		inconsistency_end(&outcome->states->inconsistency);
+		misreading_end(&outcome->states->misreading);
+	}
+	free(outcome->states);
 	three_body_end(&outcome->three_body);
 	free(outcome->impact);
 	free(outcome->fluxes);

@@ -50,6 +50,10 @@
  *	                       fraction_below_interval (95 %), mean_ulp, deviation_ulp, least_ulp, most_ulp (ulp: the step
  *	                       from the contact distance upwards), and bars, counts per representable number, of
  *	                       which first_bar is how many numbers from contact the first stands
+ *	states                 when measured: tests (of pairs near a step); for each kind of inconsistency of
+ *	                       measure/inconsistency.h, by its name, count and per_event, [rate, 95 % interval]; repeats,
+ *	                       misses and energy as in measure/misreading.h; repeated, missed, stuck: the first of each,
+ *	                       null where there was none: event, time, kind, pair, third (null: none), was, read
  *	failure                when measured: what (survives, halts, ...: measure/failure.h), event (the first that shows
  *it, null for none), time, text trace                  with --trace: list of events, each with kind, between [particle,
  *particle or wall], time, wait (since the later of their last events), separation, steps (that in representable numbers
@@ -66,6 +70,8 @@
 #include "measure/conservation.h"
 #include "measure/failure.h"
 #include "measure/impact.h"
+#include "measure/inconsistency.h"
+#include "measure/misreading.h"
 #include "measure/three_body.h"
 #include "measure/trace.h"
 #include "store/checkpoint.h"
@@ -77,14 +83,20 @@ struct run_plan {
 	struct touchstone_limits limits; /* after equilibration */
 	const char *const *settings;
 	size_t setting_count;
-	bool conservation, impact, three_body; /* measured? */
-	bool trace, failure;                   /* told event by event? watched for what goes wrong? */
-	const char *xyz;                       /* file for the final configuration, or NULL */
-	const char *against;                   /* a finer arithmetic to find the horizon with, or NULL */
-	const char *checkpoint;                /* file for checkpoints, or NULL: */
-	uint64_t every;                        /* so many events; 0: at the end only */
+	bool conservation, impact, three_body, states; /* measured? */
+	bool trace, failure;                           /* told event by event? watched for what goes wrong? */
+	const char *xyz;                               /* file for the final configuration, or NULL */
+	const char *against;                           /* a finer arithmetic to find the horizon with, or NULL */
+	const char *checkpoint;                        /* file for checkpoints, or NULL: */
+	uint64_t every;                                /* so many events; 0: at the end only */
 	const char *resume; /* file of the checkpoint that the run goes on from, and what it holds; or NULL */
 	const struct checkpoint *resumed;
+};
+
+/* What was found out about the states of pairs. */
+struct states_outcome {
+	struct inconsistency inconsistency;
+	struct misreading misreading;
 };
 
 /* What became of one run. */
@@ -107,8 +119,9 @@ struct outcome {
 	struct impact *impact; /* NULL when not measured; freed by outcome_free */
 	bool three_bodies;     /* measured: */
 	struct three_body three_body;
-	struct trace trace;     /* all zeros when not wanted; freed by outcome_free */
-	struct failure failure; /* when watched for */
+	struct states_outcome *states; /* NULL when not measured; freed by outcome_free */
+	struct trace trace;            /* all zeros when not wanted; freed by outcome_free */
+	struct failure failure;        /* when watched for */
 	size_t virtual_wall_count;
 	struct touchstone_flux (*fluxes)[2]; /* through each; freed by outcome_free */
 	bool failed;                         /* there was no run */

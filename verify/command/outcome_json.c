@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "command/command.h"
+#include "command/outcome_states.h"
 #include "measure/interval.h"
 #include "provenance.h"
 
@@ -150,6 +151,7 @@ static void set_run(json_t *json, const struct run_plan *plan, const struct outc
 	if (outcome->three_bodies) json_object_set_new(json, "three_body", three_body_json(&outcome->three_body));
 	if (plan->against) outcome_set_horizon(json, plan, outcome);
 	if (outcome->impact) json_object_set_new(json, "impact", impact_json(outcome->impact));
+	if (outcome->states) json_object_set_new(json, "states", states_json(outcome->states));
 }
 
 static json_t *together_json(const struct outcome *outcomes, size_t count)

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "command/outcome_states.h"
 #include "measure/interval.h"
 
 void outcome_row(const char *what, const char *format, ...)
@@ -157,8 +158,10 @@ static void print_measures(const struct run_plan *plan, const struct outcome *ou
 	struct three_body three_body;
 	if (outcome_three_body(outcomes, count, &three_body) && three_body.contacts > 0) print_three_body(&three_body);
 	for (size_t o = 0; o < count; o++) {
-		if (outcomes[o].conservation && count > 1) outcome_row("seed", "%llu", (unsigned long long)outcomes[o].seed);
+		if ((outcomes[o].conservation || outcomes[o].states) && count > 1)
+			outcome_row("seed", "%llu", (unsigned long long)outcomes[o].seed);
 		if (outcomes[o].conservation) print_conservation(plan, &outcomes[o]);
+		if (outcomes[o].states) states_print(outcomes[o].states);
 	}
 }
 

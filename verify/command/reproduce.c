@@ -25,6 +25,8 @@ const struct figure_entry figures[] = {
 	{"horizon", "for how many events per particle a run can be trusted, over the bits it carries", figure_horizon},
 	{"time-and-place", "what late times and far places do to impacts, three-body events and the horizon",
 	 figure_time_place},
+	{"states", "2016, section 5: wells and shoulders, what positions say of them, and methods that believe it",
+	 figure_states},
 	{"atlas", "what each method does in each stress scene, and from which precision on it survives", figure_atlas},
 	{0},
 };

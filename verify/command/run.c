@@ -56,7 +56,8 @@ static const struct argp_option options[] = {
 	{"measure", MEASURE, "LIST", 0,
 	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum), three-body (contacts "
 	 "after which a particle overlaps its partner and a third), failure (a second run, watched for what goes wrong "
-	 "first, as in the failure atlas)",
+	 "first, as in the failure atlas), states (pairs whose positions contradict their tracked state, and whether the "
+	 "method is misled by them)",
 	 2},
 	{"against", AGAINST, "A", 0,
 	 "Run the same start in the finer arithmetic A as well, such as mpfr:256, and say for how many events this run can "
@@ -84,7 +85,7 @@ static const struct argp_option options[] = {
 
 struct wish {
 	const char *scene, *json, *xyz, *folder, *against, *checkpoint, *resume;
-	bool explain, impact, conservation, three_body, trace, failure;
+	bool explain, impact, conservation, three_body, trace, failure, states;
 	uint64_t runs, threads, every;
 	char **words;    /* of the command line, the first being the command */
 	char **settings; /* KEY=VALUE, each from malloc */
@@ -101,7 +102,7 @@ static void add_setting(struct wish *wish, const char *key, const char *value)
 
 static void choose_measures(struct wish *wish, char *list)
 {
-	char *const names[] = {"impact", "conservation", "three-body", "failure", NULL};
+	char *const names[] = {"impact", "conservation", "three-body", "failure", "states", NULL};
 	while (*list) {
 		char *word = list, *value;
 		switch (getsubopt(&list, names, &value)) {
@@ -117,8 +118,11 @@ static void choose_measures(struct wish *wish, char *list)
 		case 3:
 			wish->failure = true;
 			break;
+		case 4:
+			wish->states = true;
+			break;
 		default:
-			refuse_option("measure", word, "impact, conservation, three-body, failure, or several with commas");
+			refuse_option("measure", word, "impact, conservation, three-body, failure, states, or several with commas");
 		}
 	}
 }
@@ -288,6 +292,7 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		.impact = wish->impact || (resumed && checkpointing_has_impacts(resumed)),
 		.conservation = wish->conservation || (resumed && checkpointing_has_sums(resumed)),
 		.three_body = wish->three_body || (resumed && checkpointing_has_three_bodies(resumed)),
+		.states = wish->states,
 		.trace = wish->trace,
 		.failure = wish->failure,
 		.xyz = wish->xyz,
@@ -327,8 +332,10 @@ static int run(const struct wish *wish)
 	if (wish->every && !wish->checkpoint) return refuse("--every: accepted: with --checkpoint");
 	if (wish->xyz && (wish->runs > 1 || strcmp(wish->xyz, "-") == 0))
 		return refuse("--xyz: accepted: a file, and a single run");
-	if ((wish->checkpoint || wish->resume) && (wish->trace || wish->failure))
-		return refuse("--%s: accepted: without --checkpoint and --resume", wish->trace ? "trace" : "measure failure");
+	if ((wish->checkpoint || wish->resume) && (wish->trace || wish->failure || wish->states))
+		return refuse("--%s: accepted: without --checkpoint and --resume", wish->trace     ? "trace"
+																		   : wish->failure ? "measure failure"
+																						   : "measure states");
 	if (wish->trace && wish->runs > 1) return refuse("--trace: accepted: a single run");
 	if ((wish->json && !output_possible(wish->json, error)) || (wish->xyz && !output_possible(wish->xyz, error)) ||
 		(wish->checkpoint && !output_possible(wish->checkpoint, error)))

@@ -25,5 +25,6 @@ struct result *figure_stepping(const struct figure_setup *setup, char error[512]
 struct result *figure_atlas(const struct figure_setup *setup, char error[512]);      /* where methods fail */
 struct result *figure_horizon(const struct figure_setup *setup, char error[512]);    /* for how long a run is trusted */
 struct result *figure_time_place(const struct figure_setup *setup, char error[512]); /* late times, far places */
+struct result *figure_states(const struct figure_setup *setup, char error[512]);     /* 2016, section 5 */
 
 #endif

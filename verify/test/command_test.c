@@ -52,6 +52,7 @@ static void listings_are_complete(void **state)
 	}
 	const char *name;
 	for (size_t n = 0; (name = touchstone_finder_name(n)); n++) assert_non_null(strstr(methods.out, name));
+	for (size_t n = 0; (name = touchstone_method_name(n)); n++) assert_non_null(strstr(methods.out, name));
 	for (size_t n = 0; (name = touchstone_arithmetic_name(n)); n++) assert_non_null(strstr(arithmetics.out, name));
 	const struct family *family;
 	for (size_t n = 0; (family = family_at(n)); n++) assert_non_null(strstr(families.out, family->name));
