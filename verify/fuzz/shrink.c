@@ -80,6 +80,8 @@ static bool at_end(const struct shrinking *shrinking)
 /* Takes the candidate if it is simpler and fails alike. */
 static bool offer(struct shrinking *shrinking, struct fuzz_case *candidate)
 {
+	for (size_t n = 0; n < shrinking->all; n++)
+		if (!isfinite(*number_of(shrinking, candidate, n))) return false;
 	struct burden now = burden_of(shrinking, &shrinking->best), then = burden_of(shrinking, candidate);
 	if (!lighter(&then, &now) || at_end(shrinking)) return false;
 	shrinking->tried++;
@@ -111,7 +113,7 @@ static bool replace(struct shrinking *shrinking, size_t n, double number)
 {
 	struct fuzz_case candidate = shrinking->best;
 	*number_of(shrinking, &candidate, n) = number;
-	return isfinite(number) && offer(shrinking, &candidate);
+	return offer(shrinking, &candidate);
 }
 
 /* One number for itself: gone, one, a power of two, fewer bits, a smaller exponent, no sign. */
@@ -179,16 +181,14 @@ static bool simplify_units(struct shrinking *shrinking)
 		for (int step = 512; step; step /= 2)
 			for (int sign = -1; sign <= 1; sign += 2) {
 				struct fuzz_case candidate = shrinking->best;
-				bool finite = true;
 				for (size_t n = 0; n < shrinking->all; n++) {
 					size_t which = n % shrinking->numbers;
 					int power = time ? units[shrinking->subject->shape][which].time
 									 : units[shrinking->subject->shape][which].length;
 					double *number = number_of(shrinking, &candidate, n);
 					*number = shifted(*number, sign * step * power);
-					finite &= isfinite(*number);
 				}
-				if (finite && offer(shrinking, &candidate)) return true;
+				if (offer(shrinking, &candidate)) return true;
 			}
 	return false;
 }
