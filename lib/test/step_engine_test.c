@@ -90,7 +90,7 @@ static void search_does_not_matter(void **state)
 	struct random_state random = random_seed(SEED);
 	print_message("seed %d\n", SEED);
 	uint64_t events[TOUCHSTONE_CROSSING] = {0};
-	for (int trial = 0; trial < (brief ? 8 : 32); trial++) {
+	for (int trial = 0; trial < (brief ? 4 : 10); trial++) {
 		struct drawn drawn;
 		struct scene_recipe recipe = draw_gas(&drawn, &random);
 		const char *arithmetic = arithmetics[trial % 4], *method = methods[trial % 4 ? 0 : trial / 4 % 4];
@@ -147,7 +147,7 @@ static void equal_precision_means_equal_events(void **state)
 		recipe.potentials = potentials[p];
 		recipe.potential_count = 1;
 		for (int e = 0; e < 6; e++)
-			assert_same_run(&recipe, brief ? 300 : e < 4 ? 3000 : 1000, equal[e][0], equal[e][1]);
+			assert_same_run(&recipe, brief ? 200 : e < 4 ? 2000 : 600, equal[e][0], equal[e][1]);
 	}
 }
 
@@ -196,7 +196,7 @@ static void energy_and_momentum_are_conserved(void **state)
 		recipe.potential_count = 1;
 		struct run run = begin(&recipe, "binary64", "stable");
 		double first[3], last[3], begun = energy_of(&run, first);
-		struct touchstone_status status = advance(&run, brief ? 20000 : 200000);
+		struct touchstone_status status = advance(&run, brief ? 20000 : 60000);
 		double ended = energy_of(&run, last), kinetic = ended - status.potential_energy;
 		print_message("%g at first, %g at last: changed by %.2g; of %llu events %llu captures, %llu releases, %llu "
 					  "bounces, %llu at cores\n",

@@ -187,7 +187,7 @@ static void dilute_pairs_know_only_each_other(void **state)
 		struct sums part[PARTS];
 		double occupied[PARTS], from_pairs[PARTS], from_impulses[PARTS], rate[PARTS];
 		struct gas gas = begin((size_t)count, density, 2, &potential);
-		measure(&gas, brief ? 48000 : steps[s][0].energy > 0 && step_count[s] == 1 ? 240000 : 960000, part);
+		measure(&gas, brief ? 48000 : steps[s][0].energy > 0 && step_count[s] == 1 ? 160000 : 480000, part);
 		print_message("%s\n", names[s]);
 		for (int p = 0; p < PARTS; p++) {
 			double kt = part[p].temperature / part[p].time, inner = 1, exact = 2 * pi / 3, found = exact;

@@ -13,7 +13,7 @@
 enum {
 	SLICE = 4096,  /* questions made, asked and judged by one thread; even */
 	SLICES = 16,   /* of a round */
-	TRIES = 40000, /* to shrink a finding; */
+	TRIES = 10000, /* to shrink a finding; */
 	FRESH = 4,     /* one slice in so many is a family's own questions */
 };
 

@@ -217,7 +217,7 @@ static void pressures_and_rates(void **state)
 	enum { COUNT = sizeof equation / sizeof *equation };
 	struct measured measured[COUNT];
 #pragma omp parallel for schedule(dynamic, 1)
-	for (int i = 0; i < COUNT; i++) measured[i] = measure_state(&equation[i], brief ? 64000 : 1600000);
+	for (int i = 0; i < COUNT; i++) measured[i] = measure_state(&equation[i], brief ? 64000 : 800000);
 	double tolerance = brief ? 0.03 : 0.01;
 	for (int i = 0; i < COUNT; i++) {
 		print_message("%zu %s at density %g\n", equation[i].count, equation[i].name, equation[i].density);
@@ -240,7 +240,7 @@ static void energy_and_momentum_stay(void **state)
 		if (i / 2) recipe.species_count = 2, recipe.species = two_sizes;
 		struct run run = begin(&recipe, SEED, 0);
 		struct conservation before = conservation_of(&run.scene, run.engine);
-		execute(&run, brief ? 20000 : 1000000, NULL);
+		execute(&run, brief ? 20000 : 300000, NULL);
 		struct conservation after = conservation_of(&run.scene, run.engine);
 		energy[i] = conservation_energy_drift(&before, &after);
 		momentum[i] = conservation_momentum_drift(&before, &after);
