@@ -83,8 +83,8 @@ static void loads_from_disk(void **state)
 	show("?paused");
 	assert_no_errors();
 	assert_true(holds("document.getElementById('canvas-0').width > 100"));
-	assert_within("stable in binary64", text_of("caption-0"));
-	assert_within("stable in binary32", text_of("caption-1"));
+	wait_for("document.getElementById('caption-0').textContent.includes('stable in binary64')");
+	wait_for("document.getElementById('caption-1').textContent.includes('stable in binary32')");
 	assert_within("", text_of("notes"));
 	char *drawn = script("return document.getElementById('canvas-0').dataset.drawn || ''");
 	print_message("drawn by %s\n", drawn);
@@ -226,7 +226,7 @@ static void frames_come_in_time(void **state)
 	(void)state;
 	double load[1] = {0};
 	show("?aspect-ratio=1.6");
-	sleep(6);
+	sleep(3);
 	getloadavg(load, 1);
 	char *work = script("return document.documentElement.dataset.work"), *rate = script("return "
 																						"document.documentElement."
