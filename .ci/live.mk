@@ -1,5 +1,6 @@
 # The live page: the library without MPFR, its cases and the page's engine, compiled for the web.
-LIVE     := convection discs bouncing-ball column cradle three-body
+LIVE     := convection discs bouncing-ball column cradle three-body \
+	$(addprefix stress/,near-collapse cradle column grazing)
 web       = $(patsubst %.c,$(BUILD)/web/%.o,$(1))
 WEB      := $(call web,lib/arithmetic.c $(wildcard lib/engine/*.c lib/overlap/*.c lib/scene/*.c) \
 	$(patsubst %,lib/unit/%.c,short binary32 binary64 twin) verify/measure/three_body.c $(filter-out %/recipes.c,$(wildcard verify/live/*.c)))

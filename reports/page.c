@@ -14,15 +14,14 @@
 #include <unistd.h>
 
 EMBED(template_head, "templates/head.html");
+EMBED(template_cell, "templates/cell.html");
 EMBED(template_index, "templates/index.html");
 EMBED(template_result, "templates/result.html");
 EMBED(template_style, "templates/style.css");
 
-static const struct template templates[] = {{"head", template_head},
-											{"index", template_index},
-											{"result", template_result},
-											{"style", template_style},
-											{NULL, NULL}};
+static const struct template templates[] = {{"head", template_head},   {"cell", template_cell},
+											{"index", template_index}, {"result", template_result},
+											{"style", template_style}, {NULL, NULL}};
 
 static const char *text_at(const json_t *object, const char *key)
 {
@@ -150,11 +149,31 @@ static json_t *pages_of(const struct shelf *shelf)
 	return pages;
 }
 
+/* In cells of tables the live page's parameters become addresses, or vanish where it is not. */
+static void link_cells(const json_t *view, bool there)
+{
+	const json_t *table, *row;
+	json_t *cell;
+	size_t t, r, c;
+	json_array_foreach(json_object_get(view, "tables"), t, table)
+		json_array_foreach(json_object_get(table, "rows"), r, row)
+			json_array_foreach(json_object_get(row, "cells"), c, cell)
+	{
+		const char *query = text_at(cell, "watch");
+		json_t *address = there && query ? json_sprintf("../live.html?%s", query) : NULL;
+		if (address)
+			json_object_set_new(cell, "watch", address);
+		else
+			json_object_del(cell, "watch");
+	}
+}
+
 /* Links to the live page, where it lies beside the report: what each result says of it, as addresses. */
 static void link_live(const struct shelf *shelf, const json_t *views, const char *folder)
 {
 	char *path = NULL;
 	bool there = asprintf(&path, "%s/../live.html", folder) >= 0 && access(path, R_OK) == 0;
+	for (size_t i = 0; i < json_array_size(views); i++) link_cells(json_array_get(views, i), there);
 	for (size_t i = 0; there && i < shelf->count; i++) {
 		json_t *links = json_array();
 		const json_t *live;

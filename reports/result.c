@@ -219,6 +219,36 @@ void table_shaded(struct result_table table, unsigned level, const char *format,
 	va_end(arguments);
 }
 
+/* Adds to the cell appended last, which becomes an object if it is only a text. */
+static void add_to_cell(struct result_table table, const char *key, const char *value)
+{
+	const json_t *rows = json_object_get(table.json, "rows");
+	json_t *row = json_array_get(rows, json_array_size(rows) - 1),
+		   *last = json_array_get(row, json_array_size(row) - 1);
+	if (json_is_string(last)) {
+		json_t *object = json_object();
+		set_text(table.result, object, "text", json_string_value(last));
+		if (json_array_set_new(row, json_array_size(row) - 1, object) != 0) table.result->broken = true;
+		last = object;
+	}
+	set_text(table.result, last, key, value);
+}
+
+void table_anchor(struct result_table table, const char *name)
+{
+	add_to_cell(table, "anchor", name);
+}
+
+void table_link(struct result_table table, const char *anchor)
+{
+	add_to_cell(table, "link", anchor);
+}
+
+void table_live(struct result_table table, const char *query)
+{
+	add_to_cell(table, "live", query);
+}
+
 /* ------------------------------------------------------------------ figures */
 
 static json_t *axis(struct result *result, const struct figure_axis *axis)

@@ -95,6 +95,11 @@ enum { TABLE_LEVELS = 5 };
 __attribute__((format(printf, 3, 4))) void table_shaded(struct result_table table, unsigned level, const char *format,
 														...);
 
+/* Of the text or shaded cell appended last. Names are made as a result's name is. */
+void table_anchor(struct result_table table, const char *name); /* names it, once in a result */
+void table_link(struct result_table table, const char *anchor); /* a click leads to the cell so named in this result */
+void table_live(struct result_table table, const char *query);  /* what the live page shows of it: see result_live */
+
 /* ------------------------------------------------------------------ figures */
 
 /* Kinds of figure, and the columns of numbers each needs (more are allowed, and go into the CSV):

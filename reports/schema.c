@@ -59,17 +59,34 @@ static bool is_number(const json_t *value)
 	return json_is_number(value) || json_is_null(value) || (json_is_string(value) && isinf(schema_double(value)));
 }
 
-static bool is_shaded(const json_t *value)
+/* Parameters of the live page: they become part of an address. */
+static bool is_query(const char *text)
+{
+	static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789=&@:.-";
+	return text[strspn(text, allowed)] == '\0';
+}
+
+/* What may be missing, and must be sound where it is there. */
+static bool is_optional(const json_t *value, bool (*sound)(const char *))
+{
+	return !value || (json_is_string(value) && sound(json_string_value(value)));
+}
+
+/* Text with a shade, a name or links. */
+static bool is_rich(const json_t *value)
 {
 	const json_t *level = json_object_get(value, "level");
 	json_int_t shade = json_integer_value(level);
-	return json_is_string(json_object_get(value, "text")) && json_is_integer(level) && shade >= 0 &&
-		   shade < TABLE_LEVELS;
+	return json_is_string(json_object_get(value, "text")) &&
+		   (!level || (json_is_integer(level) && shade >= 0 && shade < TABLE_LEVELS)) &&
+		   is_optional(json_object_get(value, "anchor"), is_name) &&
+		   is_optional(json_object_get(value, "link"), is_name) &&
+		   is_optional(json_object_get(value, "live"), is_query);
 }
 
 static bool is_cell(const json_t *value)
 {
-	return json_is_string(value) || is_number(value) || is_shaded(value);
+	return json_is_string(value) || is_number(value) || is_rich(value);
 }
 
 static bool check_texts(const struct place *place, const char *key, const json_t *array)
@@ -203,15 +220,46 @@ static bool check_distinct(struct place place, const json_t *figures)
 	return true;
 }
 
-/* Parameters of the live page: they become part of an address. */
+/* How many cells of all tables are so named. */
+static size_t anchors(const json_t *tables, const char *name)
+{
+	size_t t, r, c, count = 0;
+	const json_t *table, *row, *cell;
+	json_array_foreach(tables, t, table) json_array_foreach(json_object_get(table, "rows"), r, row)
+		json_array_foreach(row, c, cell)
+	{
+		const char *anchor = json_string_value(json_object_get(cell, "anchor"));
+		count += anchor && strcmp(anchor, name) == 0;
+	}
+	return count;
+}
+
+/* Links of cells lead to cells. */
+static bool check_links(struct place place, const json_t *tables)
+{
+	place.list = "tables";
+	size_t r, c;
+	const json_t *table, *row, *cell;
+	json_array_foreach(tables, place.index, table) json_array_foreach(json_object_get(table, "rows"), r, row)
+		json_array_foreach(row, c, cell)
+	{
+		const char *link = json_string_value(json_object_get(cell, "link"));
+		const char *anchor = json_string_value(json_object_get(cell, "anchor"));
+		if (link && anchors(tables, link) == 0)
+			return wrong(&place, "row %zu, column %zu: a link to '%s', and no cell is so named", r, c, link);
+		if (anchor && anchors(tables, anchor) > 1)
+			return wrong(&place, "row %zu, column %zu: another cell is named '%s' too", r, c, anchor);
+	}
+	return true;
+}
+
 static bool check_live(const struct place *place, json_t *live)
 {
 	const char *title, *query;
 	json_error_t fault;
 	if (json_unpack_ex(live, &fault, 0, "{s: s, s: s}", "title", &title, "query", &query) != 0)
 		return wrong(place, "%s", fault.text);
-	static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789=&@:.-";
-	return query[strspn(query, allowed)] == 0 || wrong(place, "'%s' are no parameters of the live page", query);
+	return is_query(query) || wrong(place, "'%s' are no parameters of the live page", query);
 }
 
 bool schema_check(const json_t *document, const char *name, char error[REPORT_ERROR])
@@ -239,5 +287,6 @@ bool schema_check(const json_t *document, const char *name, char error[REPORT_ER
 		   check_texts(&place, "notes", json_object_get(root, "notes")) &&
 		   (!json_object_get(root, "live") || check_each(root, place, "live", check_live)) &&
 		   check_each(root, place, "claims", check_claim) && check_each(root, place, "tables", check_table) &&
-		   check_each(root, place, "figures", check_figure) && check_distinct(place, json_object_get(root, "figures"));
+		   check_links(place, json_object_get(root, "tables")) && check_each(root, place, "figures", check_figure) &&
+		   check_distinct(place, json_object_get(root, "figures"));
 }

@@ -11,7 +11,9 @@
  *	             verdict: "agrees" | "differs" | "not comparable", why}]; interval, interval_means, unit, shown and
  *	             count may be missing
  *	tables       [{title, note (may be missing), columns: [heading, ...], rows: [[cell, ...], ...]}], a cell being
- *	             text, a number, null for no value, or {text, level} for text on a shade, level 0 to 4
+ *	             text, a number, null for no value, or {text, level, anchor, link, live}: text on a shade, level 0 to 4,
+ *	             with a name, a link to the cell of that name, and what the live page shows of it; all but the text
+ *	             may be missing
  *	figures      [{name, kind, title, caption, alternative, x: {label, log, range: [low, high]}, y: likewise,
  *	             columns: [name, ...], categories: [name, ...] (may be missing),
  *	             series: [{label, style: "line" | "points" | "bars" | "ends", rows: [[number, ...], ...],

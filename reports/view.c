@@ -78,12 +78,14 @@ static void set_tally(json_t *view, const json_t *claims)
 
 /* ------------------------------------------------------------------ tables and figures */
 
-/* "number", "hex" (hex floats, to be copied whole, perhaps with a word before them), "shade" or "" for prose. */
+/* "number", "hex" (hex floats, to be copied whole, perhaps with a word before them), "command" (the same of command
+ * lines), "shade" or "" for prose. */
 static const char *cell_class(const json_t *cell)
 {
-	if (json_is_object(cell)) return "shade";
-	const char *text = json_string_value(cell);
+	if (json_object_get(cell, "level")) return "shade";
+	const char *text = json_is_object(cell) ? text_at(cell, "text") : json_string_value(cell);
 	if (!text || isinf(schema_double(cell))) return "number";
+	if (strncmp(text, "touchstone ", 11) == 0) return "command";
 	const char *word = strrchr(text, ' ');
 	word = word ? word + 1 : text;
 	return strncmp(word + (*word == '-'), "0x", 2) == 0 ? "hex" : "";
@@ -104,11 +106,21 @@ static void set_shaded(json_t *view, const json_t *cell)
 						json_sprintf("shade level-%d", (int)json_integer_value(json_object_get(cell, "level"))));
 }
 
+/* A name and links; `watch` becomes an address where the live page is (page.c). */
+static void set_links(json_t *view, const json_t *cell)
+{
+	static const char *const keys[][2] = {{"anchor", "anchor"}, {"link", "leads"}, {"live", "watch"}};
+	for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+		if (json_object_get(cell, keys[k][0])) set_text(view, keys[k][1], text_at(cell, keys[k][0]));
+}
+
 static void set_cell_text(json_t *view, const json_t *cell)
 {
 	char text[DISPLAY_ROOM];
 	if (json_is_object(cell)) {
-		set_shaded(view, cell);
+		set_text(view, "text", text_at(cell, "text"));
+		if (json_object_get(cell, "level")) set_shaded(view, cell);
+		set_links(view, cell);
 		return;
 	}
 	if (json_is_integer(cell))
@@ -160,7 +172,7 @@ static json_t *view_table(const json_t *table, const char *name, size_t index)
 			json_t *shown = json_object();
 			set_cell_text(shown, cell);
 			json_object_set_new(shown, "head", json_boolean(j == 0));
-			if (!json_is_object(cell))
+			if (!json_object_get(cell, "level"))
 				json_object_set(shown, "class", json_object_get(json_array_get(columns, j), "class"));
 			json_array_append_new(cells, shown);
 		}

@@ -50,9 +50,9 @@ function readAgainst(word, left, methods, notes) {
 
 // In few bits the engine must look at every pair, so that there may be only few.
 function mostDiscs(scene, width, height, panes) {
-	const longest = Math.max(width, height);
-	let most = scene.dimensions === 2 ? Math.floor(packing[scene.name] / covered * width * height) : 500, why = "";
-	if (scene.dimensions === 2) why = `packing limited to ${packing[scene.name] * 100} %`;
+	const longest = Math.max(width, height), limit = packing[scene.name] ?? 0.6;
+	let most = scene.dimensions === 2 ? Math.floor(limit / covered * width * height) : 500, why = "";
+	if (scene.dimensions === 2) why = `packing limited to ${limit * 100} %`;
 	if (most > 100000) [most, why] = [100000, "no more are drawn"];
 	for (const { arithmetic } of panes) {
 		const bits = /^short:(\d+)$/.exec(arithmetic);

@@ -62,6 +62,9 @@ static void live_page_is_linked_where_it_is(void **state)
 	assert_true(aside_folder(stored, error));
 	struct result *result = result_new("shown", "Something to see");
 	result_live(result, "See & believe", "scene=gas&against=binary32");
+	struct result_table table = result_table(result, "Cells", NULL, (const char *const[]){"a", "b", NULL});
+	table_text(table, "<halts>"), table_live(table, "scene=gas&method=naive"), table_link(table, "told");
+	table_text(table, "touchstone run gas"), table_anchor(table, "told");
 	put(result, stored);
 	for (int there = 0; there < 2; there++) {
 		if (there) folder_put(folder, "live.html", "<p>");
@@ -70,6 +73,11 @@ static void live_page_is_linked_where_it_is(void **state)
 		bool linked = strstr(text, "href=\"../live.html?scene=gas&amp;against=binary32\">See &amp; believe</a>");
 		assert_int_equal(linked, there);
 		assert_int_equal(strstr(text, "See it happen") != NULL, there);
+		linked = strstr(text, "<a class=\"watch\" href=\"../live.html?scene=gas&amp;method=naive\">watch it</a>");
+		assert_int_equal(linked, there);
+		assert_int_equal(strstr(text, "live.html") != NULL, there);
+		assert_non_null(strstr(text, "<a href=\"shown.html#cell-told\">&lt;halts&gt;</a>"));
+		assert_non_null(strstr(text, "<td class=\"command\" id=\"cell-told\">touchstone run gas</td>"));
 		free(text);
 	}
 	result = result_new("shown", "Something to see");
@@ -206,7 +214,8 @@ static void numbers_in_csv_have_all_their_digits(void **state)
 	assert_true(strtod(end + 1, NULL) == -8.5 * 0x1p-53);
 	free(text);
 	text = page("costs-table-1.csv");
-	static const char quoted[] = "\"a < b & \"\"c\"\" 'd' {{title}} `id` @x ^{y} \\ <script>\",\n";
+	static const char quoted[] = "\"a < b & \"\"c\"\" 'd' {{title}} `id` @x ^{y} \\ <script>\",\n"
+								 "row,\"a < b & \"\"c\"\" 'd' {{title}} `id` @x ^{y} \\ <script>\"\n";
 	assert_string_equal(strchr(text, '\n') + 1, quoted);
 	free(text);
 }

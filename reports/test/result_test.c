@@ -178,6 +178,10 @@ static void unsound_results_are_refused(void **state)
 	expect_noticed("tables/0/rows/3/1", "{}", "tables[0]: row 3, column 1");
 	expect_noticed("tables/0/rows/3/1", "{\"text\": \"1 missed\", \"level\": 5}", "tables[0]: row 3, column 1");
 	expect_noticed("tables/0/rows/3/1", "{\"text\": 1, \"level\": 0}", "tables[0]: row 3, column 1");
+	expect_noticed("tables/0/rows/3/1", "{\"text\": \"\", \"anchor\": \"a b\"}", "tables[0]: row 3, column 1");
+	expect_noticed("tables/0/rows/3/1", "{\"text\": \"\", \"live\": \"a=\\\"\"}", "tables[0]: row 3, column 1");
+	expect_noticed("tables/0/rows/3/1", "{\"text\": \"\", \"link\": \"x\"}",
+				   "tables[0]: row 3, column 1: a link to 'x', and no cell is so named");
 	expect_noticed("figures/0/x", "{}", "figures[0]: ");
 	expect_noticed("figures/0/columns/2", "\"depth\"", "needs a column 'height'");
 	expect_noticed("figures/0/series/0/style", "\"bold\"", "series style is 'bold'");
@@ -197,6 +201,10 @@ static void unsound_results_are_not_written(void **state)
 	table_row(table), table_number(table, 1);
 	assert_false(result_write(result, folder, error));
 	assert_string_equal(error, "result short: tables[0]: row 0 has 1 values, where there are 2 columns");
+	table_text(table, "here"), table_anchor(table, "here"), table_row(table);
+	table_text(table, "there"), table_anchor(table, "here"), table_number(table, 2);
+	assert_false(result_write(result, folder, error));
+	assert_string_equal(error, "result short: tables[0]: row 0, column 1: another cell is named 'here' too");
 	result_free(result);
 
 	result = result_new("../escape", "A name that leaves the folder");

@@ -203,7 +203,8 @@ static struct result *generic_result(void)
 	figure_series(figure, "nothing", SERIES_POINTS);
 	static const char *const headings[] = {HOSTILE, "empty", NULL};
 	struct result_table table = result_table(result, HOSTILE, HOSTILE, headings);
-	table_row(table), table_text(table, "%s", HOSTILE), table_number(table, NAN);
+	table_row(table), table_text(table, "%s", HOSTILE), table_anchor(table, "here"), table_number(table, NAN);
+	table_row(table), table_text(table, "row"), table_shaded(table, 2, "%s", HOSTILE), table_link(table, "here");
 	result_claim(result, &(struct result_claim){.quantity = HOSTILE,
 												.reported = HOSTILE,
 												.where = HOSTILE,

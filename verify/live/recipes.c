@@ -1,6 +1,8 @@
 /* Writes scene files as C, for the live page: its scenes are those of cases/, read by the same reader, and the page
- * needs no reader of its own. Usage: recipes FILE.yaml... >recipes.inl */
+ * needs no reader of its own. Names of scenes in the folder `stress` begin with "stress-". Usage: recipes FILE.yaml...
+ * >recipes.inl */
 #include <stdio.h>
+#include <string.h>
 
 #include "store/scene_file.h"
 
@@ -50,11 +52,11 @@ static void write_particles(const struct scene_recipe *recipe)
 	printf("},\n");
 }
 
-static void write_recipe(const struct scene_file *file)
+static void write_recipe(const char *prefix, const struct scene_file *file)
 {
 	const struct scene_recipe *recipe = &file->recipe;
-	printf("\t{\"%s\", \"%s\", {\n\t\t.dimensions = %d,\n\t\t.particle_count = %zu,\n\t\t.density = %a,\n", file->name,
-		   file->title, recipe->dimensions, recipe->particle_count, recipe->density);
+	printf("\t{\"%s%s\", \"%s\", {\n\t\t.dimensions = %d,\n\t\t.particle_count = %zu,\n\t\t.density = %a,\n", prefix,
+		   file->name, file->title, recipe->dimensions, recipe->particle_count, recipe->density);
 	write_vector("box", recipe->box);
 	printf("\t\t.boundary = {%d, %d, %d},\n", (int)recipe->boundary[0], (int)recipe->boundary[1],
 		   (int)recipe->boundary[2]);
@@ -83,7 +85,7 @@ int main(int argc, char **argv)
 		if (!drawable)
 			fprintf(stderr, "recipes: %s\n", file ? "accepted: scenes in 1 or 2 dimensions without potentials" : error);
 		else
-			write_recipe(file);
+			write_recipe(strstr(argv[i], "stress/") ? "stress-" : "", file);
 		scene_file_close(file);
 		if (!drawable) return 2;
 	}
