@@ -106,6 +106,19 @@ static void set_shaded(json_t *view, const json_t *cell)
 						json_sprintf("shade level-%d", (int)json_integer_value(json_object_get(cell, "level"))));
 }
 
+/* A command is shown in pieces, an option with its value each, which are not broken. */
+static void set_command(json_t *view, const char *text)
+{
+	json_t *pieces = json_array();
+	for (size_t length; *text; text += length + (text[length] == ' ')) {
+		const char *next = strstr(text, " --");
+		length = next ? (size_t)(next - text) : strlen(text);
+		json_array_append_new(pieces, json_stringn(text, length));
+	}
+	set_text(view, "text", "");
+	json_object_set_new(view, "lines", pieces);
+}
+
 /* A name and links; `watch` becomes an address where the live page is (page.c). */
 static void set_links(json_t *view, const json_t *cell)
 {
@@ -120,6 +133,7 @@ static void set_cell_text(json_t *view, const json_t *cell)
 	if (json_is_object(cell)) {
 		set_text(view, "text", text_at(cell, "text"));
 		if (json_object_get(cell, "level")) set_shaded(view, cell);
+		if (strcmp(cell_class(cell), "command") == 0) set_command(view, text_at(cell, "text"));
 		set_links(view, cell);
 		return;
 	}

@@ -64,7 +64,7 @@ static void live_page_is_linked_where_it_is(void **state)
 	result_live(result, "See & believe", "scene=gas&against=binary32");
 	struct result_table table = result_table(result, "Cells", NULL, (const char *const[]){"a", "b", NULL});
 	table_text(table, "<halts>"), table_live(table, "scene=gas&method=naive"), table_link(table, "told");
-	table_text(table, "touchstone run gas"), table_anchor(table, "told");
+	table_text(table, "touchstone run gas --seed 2"), table_anchor(table, "told");
 	put(result, stored);
 	for (int there = 0; there < 2; there++) {
 		if (there) folder_put(folder, "live.html", "<p>");
@@ -77,7 +77,9 @@ static void live_page_is_linked_where_it_is(void **state)
 		assert_int_equal(linked, there);
 		assert_int_equal(strstr(text, "live.html") != NULL, there);
 		assert_non_null(strstr(text, "<a href=\"shown.html#cell-told\">&lt;halts&gt;</a>"));
-		assert_non_null(strstr(text, "<td class=\"command\" id=\"cell-told\">touchstone run gas</td>"));
+		assert_non_null(strstr(
+			text,
+			"<td class=\"command\" id=\"cell-told\"><span>touchstone run gas</span> <span>--seed 2</span> </td>"));
 		free(text);
 	}
 	result = result_new("shown", "Something to see");

@@ -37,6 +37,9 @@ void atlas_close(struct atlas *atlas); /* NULL is fine */
 /* Fills the cells; those that a stop left out are not done. False with one line in `error`. */
 bool atlas_measure(struct atlas *atlas, char error[512]);
 
+/* What was measured as a result, which the caller frees (atlas_figure.c); NULL when out of memory. */
+struct result *atlas_result(const struct atlas *atlas);
+
 int atlas_bits(int rung);
 const char *atlas_arithmetic(int rung, char name[16]);
 

@@ -126,7 +126,7 @@ static void add_claim(struct result *result, const struct atlas *atlas)
 				 });
 }
 
-static struct result *tell(const struct atlas *atlas)
+struct result *atlas_result(const struct atlas *atlas)
 {
 	struct result *result = result_new("atlas", "Where methods fail");
 	if (!result) return NULL;
@@ -158,7 +158,7 @@ struct result *figure_atlas(const struct figure_setup *setup, char error[512])
 	static const char *const scenes[] = {"dilute", "dense",   "inelastic", "near-collapse", "cradle", "column",
 										 "corner", "grazing", "far-away",  "long-times",    NULL};
 	struct atlas *atlas = atlas_open(setup, scenes, setup->full ? 1000000 : 2000, error);
-	struct result *result = atlas && atlas_measure(atlas, error) ? tell(atlas) : NULL;
+	struct result *result = atlas && atlas_measure(atlas, error) ? atlas_result(atlas) : NULL;
 	atlas_close(atlas);
 	return result;
 }
