@@ -80,14 +80,14 @@ SECONDS_EACH := 60
 FUZZER   := libfuzzer
 FUZZ_CC  := $(if $(filter afl,$(FUZZER)),afl-clang-fast,clang)
 TARGETS  := $(patsubst verify/fuzz/target/%.c,$(BUILD)/fuzz-$(FUZZER)/target/%,$(wildcard verify/fuzz/target/*.c))
-fuzz:
+fuzz: $(BUILD)/touchstone
 	@.ci/setup fuzz
 	@echo 'int LLVMFuzzerTestOneInput(void) { return 0; }' | \
 		$(FUZZ_CC) -fsanitize=fuzzer -x c -o /dev/null - >/dev/null 2>&1 || \
 		{ echo 'fuzz: skipped, for $(FUZZ_CC) -fsanitize=fuzzer does not work here' >&2; exit 77; }
 	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/fuzz-$(FUZZER) CC=$(FUZZ_CC) OPTIMISE=-O1 \
 		EXTRA='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(TARGETS)
-	@verify/fuzz/guide $(BUILD)/fuzz-$(FUZZER) $(SECONDS_EACH) $(TARGETS)
+	@verify/fuzz/guide $(BUILD)/touchstone $(BUILD)/fuzz-$(FUZZER) $(SECONDS_EACH) $(TARGETS)
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
 sanitize:
