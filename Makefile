@@ -178,7 +178,7 @@ $(BUILD)/plugins/%_cxx.so: verify/test/plugins/%.c lib/touchstone.h
 	@mkdir -p $(@D)
 	$(call say,plug-in $@) g++ -x c++ -std=c++11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
 
-$(BUILD)/verify/soak/kill_soak: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
+$(BUILD)/verify/soak/kill_soak $(BUILD)/verify/soak/kept_soak: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
 $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)
