@@ -3,8 +3,9 @@
 #   make report            the papers' figures at quick size, as pages in build/report
 #   make test              all tests, also under sanitizers, and the digests of other compilers and optimisations
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
-#   make soak              100 runs killed and resumed, KILLS=1000 for more; then 10^9 answers of the correctly rounded
-#                          finder against the exact oracle, QUESTIONS=1e7 for fewer
+#   make soak              an hour of looking for what is rare, SOAK=600 for ten minutes: kills of runs, campaigns and
+#                          audits, the correctly rounded finder against the exact oracle, make fuzz, make valgrind
+#   make valgrind          test programs under valgrind's memcheck, MEMCHECK=900 seconds in all, MEMCHECK_EACH=60 at most
 #   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++
 #   make CC=clang          another compiler               make BUILD=build/other   another place
 #   make live              the convection scene in a browser: build/live.html, one file; make live-test drives it in Chromium
@@ -39,7 +40,7 @@ MPI      := $(if $(MPICC),$(BUILD)/touchstone-mpi.so)
 PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
 	$(BUILD)/plugins/example_cxx.so
 
-.PHONY: all report test bench check soak fuzz sanitize digests format clean
+.PHONY: all report test bench check soak valgrind fuzz sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -71,23 +72,41 @@ bench:
 	$(BUILD)/bench --baseline $(BASELINE) --results $(BUILD)/results $(if $(FULL),--full) $(if $(STORE),--store)
 	$(BUILD)/touchstone report --results $(BUILD)/results --output $(BUILD)/report
 
-soak: $(BUILD)/touchstone $(BUILD)/verify/soak/kill_soak $(BUILD)/verify/soak/rounded_soak
-	$(BUILD)/verify/soak/kill_soak $(KILLS)
-	$(BUILD)/verify/soak/rounded_soak $(QUESTIONS)
+# A quarter of the time each, to kills, answers, fuzzers and memcheck; all are heard, and one finding is a failure.
+SOAK     := 3600
+SOAKERS  := $(addprefix $(BUILD)/verify/soak/,kill_soak kept_soak rounded_soak)
+soak: $(BUILD)/touchstone $(SOAKERS)
+	@status=0; share() { timeout --foreground --preserve-status -s INT "$$@" || status=1; }; \
+	share $$(($(SOAK) / 8)) $(BUILD)/verify/soak/kill_soak 1000000; \
+	share $$(($(SOAK) / 8)) $(BUILD)/verify/soak/kept_soak 1000000; \
+	share $$(($(SOAK) / 4)) $(BUILD)/verify/soak/rounded_soak 1e15; \
+	$(MAKE) --no-print-directory fuzz SECONDS_EACH=$$(($(SOAK) / 4 / $(words $(TARGETS)))) || status=1; \
+	$(MAKE) --no-print-directory valgrind MEMCHECK=$$(($(SOAK) / 4)) || status=1; \
+	exit $$status
+
+# Memory errors that sanitizers do not see, such as numbers that nobody has set. In random order; what there is no time for
+# is said.
+MEMCHECK := 900
+MEMCHECK_EACH := 60
+valgrind:
+	@.ci/setup
+	@.ci/setup bench
+	@$(MAKE) --no-print-directory -j$(CORES) prepared
+	@verify/test/memcheck $(MEMCHECK) $(MEMCHECK_EACH) $$(shuf -e $(TESTS))
 
 # Coverage-guided fuzzing of finders and readers, so many seconds each: by libFuzzer, or with FUZZER=afl by AFL++.
 SECONDS_EACH := 60
 FUZZER   := libfuzzer
 FUZZ_CC  := $(if $(filter afl,$(FUZZER)),afl-clang-fast,clang)
 TARGETS  := $(patsubst verify/fuzz/target/%.c,$(BUILD)/fuzz-$(FUZZER)/target/%,$(wildcard verify/fuzz/target/*.c))
-fuzz:
-	@.ci/setup fuzz
+fuzz: $(BUILD)/touchstone
+	@.ci/setup $(if $(filter afl,$(FUZZER)),afl || true,fuzz)
 	@echo 'int LLVMFuzzerTestOneInput(void) { return 0; }' | \
 		$(FUZZ_CC) -fsanitize=fuzzer -x c -o /dev/null - >/dev/null 2>&1 || \
 		{ echo 'fuzz: skipped, for $(FUZZ_CC) -fsanitize=fuzzer does not work here' >&2; exit 77; }
 	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/fuzz-$(FUZZER) CC=$(FUZZ_CC) OPTIMISE=-O1 \
 		EXTRA='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(TARGETS)
-	@verify/fuzz/guide $(BUILD)/fuzz-$(FUZZER) $(SECONDS_EACH) $(TARGETS)
+	@verify/fuzz/guide $(BUILD)/touchstone $(BUILD)/fuzz-$(FUZZER) $(SECONDS_EACH) $(TARGETS)
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
 sanitize:
@@ -178,7 +197,7 @@ $(BUILD)/plugins/%_cxx.so: verify/test/plugins/%.c lib/touchstone.h
 	@mkdir -p $(@D)
 	$(call say,plug-in $@) g++ -x c++ -std=c++11 -O2 -Wall -Wextra -Wpedantic -Werror -shared -fPIC -Ilib -o $@ $< -lm
 
-$(BUILD)/verify/soak/kill_soak: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
+$(BUILD)/verify/soak/kill_soak $(BUILD)/verify/soak/kept_soak: CPPFLAGS += -DTOUCHSTONE_PROGRAM='"$(BUILD)/touchstone"'
 $(BUILD)/verify/soak/%: verify/soak/%.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
 	@mkdir -p $(@D)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c %.a,$^) $(LDLIBS)

@@ -181,17 +181,15 @@ static bool add_seeds(struct campaign_file *file, const char *word, char *error)
 	if (last - first >= CAMPAIGN_MOST_PIECES / file->points - file->seed_count)
 		return refuse(file, error, "seeds", "makes more than %d runs on a grid of %zu", CAMPAIGN_MOST_PIECES,
 					  file->points);
+	for (size_t s = 0; s < file->seed_count; s++)
+		if (first <= file->seeds[s] && file->seeds[s] <= last)
+			return refuse(file, error, "seeds", "%llu is there twice; accepted: once",
+						  (unsigned long long)file->seeds[s]);
 	size_t count = file->seed_count + (size_t)(last - first) + 1;
 	uint64_t *longer = realloc(file->seeds, count * sizeof *longer);
 	if (!longer) return refuse(file, error, "seeds", "out of memory");
 	file->seeds = longer;
-	while (file->seed_count < count) {
-		uint64_t seed = first++;
-		for (size_t s = 0; s < file->seed_count; s++)
-			if (file->seeds[s] == seed)
-				return refuse(file, error, "seeds", "%llu is there twice; accepted: once", (unsigned long long)seed);
-		file->seeds[file->seed_count++] = seed;
-	}
+	while (file->seed_count < count) file->seeds[file->seed_count++] = first++;
 	return true;
 }
 

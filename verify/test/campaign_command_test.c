@@ -110,6 +110,7 @@ static void bad_campaigns_have_a_line(void **state)
 		{"scene: hard-spheres\ngrid:\n  method: [stable,\n    magic]\n", "bad.yaml:4: grid.method[1]: "},
 		{"scene: hard-spheres\nseeds: 3..1\n", "bad.yaml:2: seeds: '3..1'; accepted: whole numbers"},
 		{"scene: hard-spheres\nseeds: [1, 1]\n", "bad.yaml:2: seeds: 1 is there twice"},
+		{"scene: hard-spheres\nseeds: [1..900000, 900000]\n", "bad.yaml:2: seeds: 900000 is there twice"},
 		{"scene: hard-spheres\nseeds: 1..1e9\n", "bad.yaml:2: seeds: makes more than 1000000 runs"},
 		{"scene: hard-spheres\nmeasures: [speed]\n", "bad.yaml:2: measures[0]: 'speed' is unknown"},
 		{"scene: hard-spheres\ngrid: &a {density: [*a]}\n", "bad.yaml:1: YAML alias unsupported"},
