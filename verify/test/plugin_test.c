@@ -246,7 +246,7 @@ static void refused(const char *name, bool broken, const char *words)
 static char *forge(const char *folder, const char *name, size_t field, unsigned char value)
 {
 	static char bytes[1 << 20];
-	char *path;
+	char *path = NULL;
 	FILE *from = fopen(FAULTY, "rb");
 	size_t size = fread(bytes, 1, sizeof bytes, from);
 	fclose(from);
