@@ -161,7 +161,7 @@ static void a_flipped_bit_is_refused(void **state)
 	assert_int_equal(stat(path, &whole), 0);
 	for (int trial = 0; trial < 400; trial++) {
 		off_t at = (off_t)random_below(&random, trial % 2 ? (uint64_t)whole.st_size : 600);
-		char byte, flipped;
+		char byte = 0, flipped;
 		int file = open(path, O_RDONLY);
 		assert_true(file >= 0 && pread(file, &byte, 1, at) == 1);
 		close(file);

@@ -116,7 +116,7 @@ static void grades_do_not_depend_on_threads(void **state)
 	(void)state;
 	const char *const arguments = "grade stable naive --arithmetic binary64 --arithmetic binary32 --shape ball-ball "
 								  "--family grazing --family ties --cases 40000 --seed 7 --csv -";
-	char *one, *three;
+	char *one, *three = NULL;
 	assert_true(asprintf(&one, "%s --threads 1", arguments) > 0 && asprintf(&three, "%s --threads 3", arguments) > 0);
 	struct said first = run_well(one), second = run_well(three);
 	assert_int_equal(program_lines(first.out), 1 + 2 * 2 * 2);

@@ -42,8 +42,8 @@ static void parts_make_the_whole(void **state)
 	static const char *const scenes[] = {
 		"hard-spheres --set particles=108 --set equilibrate=3 --measure impact,conservation,three-body",
 		"square-well --set particles=108 --set density=0.2 --set equilibrate=2 --measure conservation",
-		"stepped-lennard-jones --set particles=108 --arithmetic twin --set virtual_walls=[{point:\t[0,0,0],normal:\t[1,"
-		"0,0]}]",
+		("stepped-lennard-jones --set particles=108 --arithmetic twin "
+		 "--set virtual_walls=[{point:\t[0,0,0],normal:\t[1,0,0]}]"),
 		"mixture --set particles=64 --arithmetic binary32 --set form=absolute --measure impact",
 		"inelastic-spheres --set particles=64 --arithmetic mpfr:113 --set equilibrate=0",
 		"cradle --arithmetic short:24",
