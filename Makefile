@@ -1,7 +1,8 @@
 # Touchstone. `make` builds build/touchstone; `make report` and `make test` also install what is missing.
 #
 #   make report            the papers' figures at quick size, as pages in build/report
-#   make test              all tests, also under sanitizers, and the digests of other compilers and optimisations
+#   make test              all tests, most also under sanitizers, and the digests of other compilers and optimisations
+#   make test-sanitize     all of them under sanitizers
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
 #   make soak              an hour of looking for what is rare, SOAK=600 for ten minutes: kills of runs, campaigns and
 #                          audits, the correctly rounded finder against the exact oracle, make fuzz, make valgrind
@@ -31,6 +32,7 @@ BENCH    := verify/bench/main.c
 LIBRARY  := $(call objects,$(call sources,lib))
 PARTS    := $(call objects,$(filter-out $(MAIN) $(BENCH),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
+CHECKED   = $(foreach test,$(TESTS),$(if $(filter $(OMIT),$(notdir $(test))),,$(test)))
 
 # Campaigns on several machines: a module that is loaded by programs which mpirun launched, and by no others.
 MPICC    := $(shell command -v mpicc)
@@ -40,7 +42,7 @@ MPI      := $(if $(MPICC),$(BUILD)/touchstone-mpi.so)
 PLUGINS  := $(patsubst verify/test/plugins/%.c,$(BUILD)/plugins/%.so,$(wildcard verify/test/plugins/*.c)) \
 	$(BUILD)/plugins/example_cxx.so
 
-.PHONY: all report test bench check soak valgrind fuzz sanitize digests format clean
+.PHONY: all report test bench check soak valgrind fuzz test-sanitize digests format clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -56,11 +58,12 @@ report:
 test:
 	@.ci/setup
 	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone $(TESTS)
-	@$(MAKE) --no-print-directory check digests live-test sanitize
+	@$(MAKE) --no-print-directory check digests live-test
+	@$(MAKE) --no-print-directory test-sanitize OMIT='$(SLOW)'
 
 # Every test program, from this folder, as many at a time as there are cores; each tells its tale when it has ended.
-check: $(BUILD)/touchstone $(TESTS)
-	@printf '%s\n' $(TESTS) | OMP_WAIT_POLICY=passive xargs -P $(CORES) -n 1 sh -c \
+check: $(BUILD)/touchstone $(CHECKED)
+	@printf '%s\n' $(CHECKED) | OMP_WAIT_POLICY=passive xargs -P $(CORES) -n 1 sh -c \
 		'if "$$0" >"$$0.log" 2>&1 </dev/null; then told=0; else told=1; fi; \
 		echo "== $$0"; cat "$$0.log"; exit $$told'
 
@@ -108,12 +111,15 @@ fuzz: $(BUILD)/touchstone
 		EXTRA='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(TARGETS)
 	@verify/fuzz/guide $(BUILD)/touchstone $(BUILD)/fuzz-$(FUZZER) $(SECONDS_EACH) $(TARGETS)
 
-# The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest.
-sanitize:
-	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
-		EXTRA='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer' prepared
-	@TOUCHSTONE_BRIEF=1 $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
-		EXTRA='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer' check
+# The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest. Those that
+# still take more than two seconds are left out of `make test`.
+SLOW := $(patsubst %,%_test,audit campaign_command campaign_kill chart engine family fuzz grade_command num_short oracle \
+	oracle_rule physics plugin policy resume step_engine step_gas step_oracle time_place)
+SANITIZE = BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
+	EXTRA='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer'
+test-sanitize:
+	@$(MAKE) --no-print-directory -j$(CORES) $(SANITIZE) prepared
+	@TOUCHSTONE_BRIEF=1 $(MAKE) --no-print-directory $(SANITIZE) check
 
 # One digest for both compilers and all optimisations.
 digests: $(BUILD)/touchstone
@@ -124,7 +130,7 @@ digests: $(BUILD)/touchstone
 		$(BUILD)/clang-plain/touchstone
 
 .PHONY: prepared
-prepared: $(BUILD)/touchstone $(TESTS)
+prepared: $(BUILD)/touchstone $(CHECKED)
 
 # V=1 shows the whole commands.
 say = @$(if $(V),,echo '  $(1)';)$(if $(V),set -x;)

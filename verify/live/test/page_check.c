@@ -273,22 +273,25 @@ static void failures_of_the_atlas_are_shown(void **state)
 	}
 }
 
-/* Told, and held against the limit only where nothing else keeps the machine busy: the browser draws without a graphics
- * card here. */
+/* Only where nothing else keeps the machine busy: the browser draws without a graphics card here. */
 static void frames_come_in_time(void **state)
 {
 	(void)state;
 	double load[1] = {0};
+	getloadavg(load, 1);
+	if (load[0] >= 1) {
+		print_message("a load of %.1f: frames are not looked at\n", load[0]);
+		skip();
+	}
 	show("?aspect-ratio=1.6");
 	sleep(3);
-	getloadavg(load, 1);
 	char *work = script("return document.documentElement.dataset.work"), *rate = script("return "
 																						"document.documentElement."
 																						"dataset.rate");
 	char *longest = script("return document.documentElement.dataset.longest");
 	print_message("load %.1f: longest script of a frame %s ms, longest between frames %s ms, %s frames a second\n",
 				  load[0], work, longest, rate);
-	if (load[0] < 1) assert_true(atof(work) < 100);
+	assert_true(atof(work) < 100);
 	free(work);
 	free(rate);
 	free(longest);
