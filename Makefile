@@ -58,7 +58,8 @@ report:
 test:
 	@.ci/setup
 	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone $(TESTS)
-	@$(MAKE) --no-print-directory check digests live-test
+	@$(MAKE) --no-print-directory check
+	@$(MAKE) --no-print-directory -j2 digests live-test
 	@$(MAKE) --no-print-directory test-sanitize OMIT='$(SLOW)'
 
 # Every test program, from this folder, as many at a time as there are cores; each tells its tale when it has ended.
