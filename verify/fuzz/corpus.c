@@ -79,12 +79,14 @@ void fuzz_words(const struct fuzz_subject *subject, const struct fuzz_case *fail
 	if (failed->questions == 1) snprintf(words + length, 320 - length, "; %s", branch);
 }
 
-/* "stable-binary64-ball-ball-missed-59", with letters, digits, dots and dashes only. */
+/* "stable-binary64-ball-ball-missed-59", or "...-59-beyond" beyond what is claimed, so that neither hides the other;
+ * with letters, digits, dots and dashes only. */
 static char *title_of(const struct fuzz_subject *subject, const struct fuzz_case *failed)
 {
 	char *title;
-	if (asprintf(&title, "%s-%s-%s-%s-%x", subject->finder->method, subject->finder->arithmetic,
-				 shape_name(subject->shape), fuzz_failure_name(failed->failure), failed->branch) < 0)
+	if (asprintf(&title, "%s-%s-%s-%s-%x%s", subject->finder->method, subject->finder->arithmetic,
+				 shape_name(subject->shape), fuzz_failure_name(failed->failure), failed->branch,
+				 failed->promised ? "" : "-beyond") < 0)
 		return NULL;
 	for (char *letter = title; *letter; letter++)
 		if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_", *letter)) *letter = '-';

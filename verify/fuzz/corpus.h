@@ -12,8 +12,8 @@ enum { CORPUS_ERROR = 512 };
 bool corpus_read_file(struct fuzz_hunt *hunt, const char *path, char error[CORPUS_ERROR]);
 bool corpus_read(struct fuzz_hunt *hunt, const char *folder, char error[CORPUS_ERROR]);
 
-/* Writes a finding to FOLDER/METHOD-ARITHMETIC-SHAPE-FAILURE-BRANCH.txt, unless one that is as simple is there: with
- * the exact answer, and how it was found. False with a message. */
+/* Writes a finding to FOLDER/METHOD-ARITHMETIC-SHAPE-FAILURE-BRANCH[-beyond].txt, unless one that is as simple is
+ * there: with the exact answer, and how it was found. False with a message. */
 bool corpus_write(const struct fuzz_hunt *hunt, const struct fuzz_finding *finding, const char *folder,
 				  char error[CORPUS_ERROR]);
 
