@@ -22,15 +22,19 @@ static bool suits(const struct method *method, const struct touchstone_scene *sc
 static void engine_destroy(struct touchstone_engine *engine)
 {
 	if (!engine) return;
-	for (size_t p = 0; p < engine->potential_count; p++) free(engine->potential[p].step);
+	for (size_t p = 0; p < engine->potential_count; p++) {
+		free(engine->potential[p].step);
+		free(engine->potential[p].limits);
+	}
 	cells_destroy(&engine->cells);
 	pairs_destroy(&engine->pairs);
+	pairs_destroy(&engine->neighbours.pairs);
 	agenda_destroy(&engine->agenda);
 	void *owned[] = {engine->body,           engine->place,          engine->itinerary, engine->index_of,
 					 engine->radius,         engine->mass,           engine->wall,      engine->candidate[0],
 					 engine->shadows.shadow, engine->shadows.radius, engine->potential, engine->potential_of,
 					 engine->virtual_wall,   engine->side,           engine->crossed,   engine->captured,
-					 engine->temperature,    engine->last_met};
+					 engine->temperature,    engine->last_met,       engine->neighbours.anchor};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }

@@ -12,7 +12,8 @@ static bool set_potential(struct touchstone_engine *engine, const struct touchst
 	if (to_double(potential->core) == diameters)
 		potential->core = add(engine->radius[species[0]], engine->radius[species[1]]);
 	potential->step = calloc(said->step_count + 1, sizeof *potential->step);
-	if (!potential->step) return false;
+	potential->limits = calloc(said->step_count + 1, sizeof *potential->limits);
+	if (!potential->step || !potential->limits) return false;
 	potential->step_count = (uint32_t)said->step_count;
 	for (size_t s = 0; s < said->step_count; s++) { /* outwards in the scene, inwards here */
 		const struct touchstone_step *step = &said->steps[said->step_count - 1 - s];
@@ -21,8 +22,10 @@ static bool set_potential(struct touchstone_engine *engine, const struct touchst
 		potential->step[s].distance = from_double(step->distance);
 		potential->step[s].climb = divide(mul(add(gain, gain), add(first, second)), mul(first, second));
 		potential->step[s].energy = energy;
+		potential->limits[s].inner = potential->limits[s + 1].outer = (float)step->distance;
 		outside = inside;
 	}
+	potential->limits[said->step_count].inner = (float)to_double(potential->core);
 	if (said->step_count) engine->reach = fmax(engine->reach, to_double(potential->step[0].distance));
 	return true;
 }

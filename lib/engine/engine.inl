@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/bands.h"
 #include "engine/cells.h"
 #include "engine/pairs.h"
 #include "engine/sieve.h"
@@ -67,6 +68,8 @@ extern const struct unit THIS_UNIT;
 #include "method/stretch.inl"
 
 #include "engine/shadow.inl"
+
+#include "engine/neighbours.inl"
 
 #include "engine/search.inl"
 

@@ -55,7 +55,9 @@ static bool make_cells(struct touchstone_engine *engine, const int count[3], uin
 static bool lay_out_cells(struct touchstone_engine *engine)
 {
 	static const int most_per_axis = 60000;
-	double volume = 1, content = engine->count, reach = engine->reach + engine->slack;
+	forget_neighbours(engine);
+	choose_skin(engine);
+	double volume = 1, content = engine->count, reach = engine->reach + engine->slack + engine->neighbours.skin;
 	int count[3] = {1, 1, 1};
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		volume *= engine->box[axis];
@@ -138,6 +140,7 @@ static bool lay_out_agenda(struct touchstone_engine *engine, double day)
 static bool look_ahead(struct touchstone_engine *engine)
 {
 	cast_shadows(engine);
+	if (!list_neighbours(engine)) return false;
 	for (uint32_t i = 0; i < engine->count; i++) predict(engine, i);
 	return lay_out_agenda(engine, day_length(engine));
 }

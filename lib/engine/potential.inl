@@ -33,6 +33,15 @@ static inline uint8_t first_meeting(const struct touchstone_engine *engine, uint
 	return species_meeting(engine, engine->place[i].species, engine->place[j].species, distance);
 }
 
+/* Between which distances a pair is, by its state. */
+static inline struct limits limits_of(const struct touchstone_engine *engine, uint32_t i, uint32_t j, uint32_t state)
+{
+	const struct potential *potential = potential_between(engine, i, j);
+	if (potential) return potential->limits[state];
+	num contact = add(engine->radius[engine->place[i].species], engine->radius[engine->place[j].species]);
+	return (struct limits){0, (float)to_double(contact)};
+}
+
 /* Distance at which two hard bodies, or two cores, are in contact. */
 static num contact_distance(const struct touchstone_engine *engine, uint32_t i, uint32_t j)
 {
@@ -69,7 +78,8 @@ static bool set_state(struct touchstone_engine *engine, const struct potential *
 {
 	if (before) potential->step[before - 1].pairs--;
 	if (after) potential->step[after - 1].pairs++;
-	return pairs_set(&engine->pairs, i, entry, after);
+	return pairs_set(&engine->pairs, i, entry, after) &&
+		   (!engine->neighbours.pairs.bucket || pairs_set(&engine->neighbours.pairs, i, entry, 1 + after));
 }
 
 /* The state that a pair's distance speaks for, its square being given: at a step the pair is outside it. */

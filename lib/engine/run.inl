@@ -1,10 +1,63 @@
 /* The event loop. */
 
+/* Enters a particle into its cell; false when memory ran out. */
+static bool enter_cell(struct touchstone_engine *engine, uint32_t i)
+{
+	if (cells_insert(&engine->cells, engine->itinerary[i].cell, i)) return true;
+	int count[3] = {engine->cells.count[0], engine->cells.count[1], engine->cells.count[2]};
+	return make_cells(engine, count, 2 * engine->cells.capacity);
+}
+
+/* A particle has gone far from its anchor: it gets another one, which may be in another cell and image of the box, and
+ * looks at those that have come near. What it meant to do stands, as for one that has left its cell. */
+static void find_neighbours(struct touchstone_engine *engine, uint32_t i)
+{
+	struct itinerary *itinerary = &engine->itinerary[i];
+	float old[3], *from = old, to[3] = {0};
+	double wait = straying_wait(engine, i), at[3] = {0};
+	uint16_t cell[3] = {itinerary->cell[0], itinerary->cell[1], itinerary->cell[2]};
+	int wraps[3] = {0};
+	memcpy(old, engine->neighbours.anchor[i].at, sizeof old);
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		at[axis] = coordinate_left(engine, i, axis) + to_double(engine->body[i].velocity[axis]) * wait;
+		if (engine->periodic[axis] && fabs(at[axis]) > engine->box[axis] / 2) wraps[axis] = at[axis] > 0 ? -1 : 1;
+		at[axis] += wraps[axis] * engine->box[axis];
+		to[axis] = (float)at[axis];
+		cell[axis] = cell_of(engine, at[axis], axis);
+	}
+	bool wrapped = wraps[0] || wraps[1] || wraps[2], enough = unlist(engine, i, old, wrapped ? nowhere : to);
+	for (int axis = 0; axis < engine->dimensions; axis++)
+		if (wraps[axis]) shift_image(engine, i, axis, wraps[axis]);
+	if (memcmp(cell, itinerary->cell, sizeof cell) != 0) {
+		cells_remove(&engine->cells, itinerary->cell, i);
+		memcpy(itinerary->cell, cell, sizeof cell);
+		enough &= enter_cell(engine, i);
+	}
+	cast_shadow(engine, i);
+	size_t fresh;
+	enough &= move_anchor(engine, i, wrapped ? nowhere : from, to, &fresh);
+	if (!enough) {
+		out_of_memory(engine);
+		return;
+	}
+	if (wrapped) {
+		itinerary->changes++;
+		predict(engine, i);
+	} else {
+		predict_fresh(engine, i, fresh);
+	}
+	schedule(engine, i);
+}
+
 /* A particle leaves its cell, and perhaps its image of the box: it is looked up in the new one. */
 static void cross(struct touchstone_engine *engine, uint32_t i)
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
 	uint8_t face;
+	if (itinerary->next == STRAYS) {
+		find_neighbours(engine, i);
+		return;
+	}
 	if (engine->accelerated) itinerary->entered = leaving_wait(engine, i, &face); /* a parabola may pass a face twice */
 	int axis = (itinerary->next - 1) / 2, side = (itinerary->next - 1) % 2 ? 1 : -1;
 	int cell = itinerary->cell[axis] + side, last = engine->cells.count[axis];
@@ -15,12 +68,9 @@ static void cross(struct touchstone_engine *engine, uint32_t i)
 		shift_image(engine, i, axis, -side);
 	}
 	itinerary->cell[axis] = (uint16_t)cell;
-	if (!cells_insert(&engine->cells, itinerary->cell, i)) {
-		int count[3] = {engine->cells.count[0], engine->cells.count[1], engine->cells.count[2]};
-		if (!make_cells(engine, count, 2 * engine->cells.capacity)) {
-			out_of_memory(engine);
-			return;
-		}
+	if (!enter_cell(engine, i)) {
+		out_of_memory(engine);
+		return;
 	}
 	cast_shadow(engine, i);
 	if (wraps) { /* images are counted from here on: whoever knew the old one asks again */

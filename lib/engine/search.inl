@@ -135,10 +135,27 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 }
 
 static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
+static void consider_listed(struct touchstone_engine *engine, uint32_t i, const struct pair_state *list, uint32_t count,
+							struct plan *plan);
+static void consider_neighbours(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
 static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates);
 static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
 static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
 					   const size_t candidates[2], int particles);
+
+/* The same as the list of neighbours has it. */
+static void predict_listed(struct touchstone_engine *engine, const uint32_t *particle, int particles,
+						   struct plan plan[2])
+{
+	if (engine->executing && engine->tested) {
+		size_t candidates[2] = {0};
+		for (int p = 0; p < particles; p++)
+			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p],
+										 engine->candidate[p]);
+		tell_tests(engine, particle, engine->candidate, candidates, particles);
+	}
+	for (int p = 0; p < particles; p++) consider_neighbours(engine, particle[p], &plan[p]);
+}
 
 /* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
  * together: each step waits for the one before it, and not for the other particle's. */
@@ -147,11 +164,14 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 	struct plan plan[2];
 	size_t candidates[2] = {0};
 	bool captures = engine->captured;
-	for (int p = 0; captures && p < particles; p++) pairs_ahead(&engine->pairs, particle[p]);
+	for (int p = 0; captures && p < particles; p++)
+		pairs_ahead(engine->neighbours.skin > 0 ? &engine->neighbours.pairs : &engine->pairs, particle[p]);
 	for (int p = 0; p < particles; p++) plan[p] = (struct plan){.meets = MEETS_NOTHING};
 	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
 	for (int p = 0; engine->side && p < particles; p++) consider_virtual_walls(engine, particle[p], &plan[p]);
-	if (engine->count > 1) {
+	if (engine->neighbours.skin > 0) {
+		predict_listed(engine, particle, particles, plan);
+	} else if (engine->count > 1) {
 		uint32_t *const *list = engine->candidate;
 		for (int p = 0; p < particles; p++)
 			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
@@ -183,6 +203,19 @@ static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axi
 	candidates = sift(engine, i, list, candidates, &plan);
 	if (engine->captured) candidates = without_captured(engine, i, list, candidates);
 	consider_pairs(engine, i, list, candidates, &plan);
+	plan_keep(engine, i, &plan);
+}
+
+/* The same for `fresh` particles that have come near, in candidate[1]. */
+static void predict_fresh(struct touchstone_engine *engine, uint32_t i, size_t fresh)
+{
+	const struct itinerary *itinerary = &engine->itinerary[i];
+	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false};
+	for (size_t k = 0; k < fresh; k++) {
+		uint32_t entry = engine->candidate[1][k];
+		struct pair_state pair = {entry, pairs_get(&engine->neighbours.pairs, i, entry)};
+		consider_listed(engine, i, &pair, 1, &plan);
+	}
 	plan_keep(engine, i, &plan);
 }
 
@@ -230,6 +263,10 @@ static double leaving_wait(const struct touchstone_engine *engine, uint32_t i, u
 {
 	double soonest = INFINITY;
 	int face = 0;
+	if (engine->neighbours.skin > 0) {
+		*next = STRAYS;
+		return straying_wait(engine, i);
+	}
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		bool upper;
 		double time = leaving_along(engine, i, axis, &upper);
@@ -287,6 +324,7 @@ static bool stays(const struct touchstone_engine *engine, uint32_t i, double fli
 	const struct body *body = &engine->body[i];
 	const struct place *place = &engine->place[i];
 	if (engine->accelerated) return false;
+	if (engine->neighbours.skin > 0) return !strays(engine, i, flight);
 	bool inside = true;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		double place_at = place->index[axis] * engine->place_width[axis] + engine->box[axis] / 2;

@@ -96,28 +96,24 @@ static void keep_plan(struct touchstone_engine *engine, const struct plan *plan)
 	sieve->latest = (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->drift);
 }
 
-/* Of `count` captured pairs, writes the numbers of those that may have the next event of particle i, before its plan.
- * No more than HELD at once. */
-enum { HELD = 64 };
-static size_t sift_captured(struct touchstone_engine *engine, uint32_t i, const struct pair_state *captured,
-							uint32_t count, const struct plan *plan, uint32_t kept[HELD + 16])
+/* Of `count` pairs, each with `more` than its state, writes the numbers of those that may have the next event of
+ * particle i, before its plan. No more than HELD_MOST at once. */
+static size_t sift_states(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
+						  uint32_t more, const struct plan *plan, uint32_t kept[HELD_MOST + 16])
 {
 	struct shadows *shadows = &engine->shadows;
-	uint32_t entry[HELD + 16], images = 0;
-	float outer[HELD + 16], inner[HELD + 16];
+	uint32_t entry[HELD_MOST + 16], images = 0;
+	float outer[HELD_MOST + 16], inner[HELD_MOST + 16], scale = (float)shadows->per_length;
 	if (!shadows->shadow || engine->method->sieve != SIEVE_ORDER) {
 		for (uint32_t k = 0; k < count; k++) kept[k] = k;
 		return count;
 	}
 	for (uint32_t k = 0; k < count; k++) {
-		const struct potential *potential = potential_between(engine, i, entry_particle(captured[k].entry));
-		uint32_t state = captured[k].state;
-		num within = potential->step[state - 1].distance;
-		num beyond = state < potential->step_count ? potential->step[state].distance : potential->core;
-		entry[k] = captured[k].entry;
+		struct limits limits = limits_of(engine, i, entry_particle(pair[k].entry), pair[k].state - more);
+		entry[k] = pair[k].entry;
 		images |= entry[k] >> ENTRY_BITS;
-		outer[k] = (float)(to_double(within) * shadows->per_length);
-		inner[k] = (float)(to_double(beyond) * shadows->per_length);
+		outer[k] = limits.outer * scale;
+		inner[k] = limits.inner * scale;
 	}
 	for (uint32_t k = count; k < count + 16; k++) entry[k] = entry[0], outer[k] = inner[k] = 1;
 	shadows->sieve.images = images;

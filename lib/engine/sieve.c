@@ -171,14 +171,16 @@ INLINE size_t hold(const struct sieve *sieve, const struct shadow *shadow, uint3
 	const struct own own = own_of(sieve, &shadow[i]);
 	const lanes zero = {0}, never = zero + INFINITY, number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 	const float fine = 0x1p-18f + 16 * sieve->roundoff;
-	float latest = sieve->latest;
-	size_t found = 0;
+	float latest = sieve->latest, soonest[HELD_MOST];
+	size_t found = 0, left = 0;
 	for (size_t k = 0; k < count; k += LANES) {
 		struct others others = others_of(sieve, &own, shadow, held->entry + k, &step);
 		lanes inner, outer;
 		memcpy(&inner, held->inner + k, sizeof inner);
 		memcpy(&outer, held->outer + k, sizeof outer);
-		lanes q = error_of_c(sieve, &others, outer * outer), error_b = error_of_b(sieve, &others);
+		flags stays = ~step.less(zero, outer);
+		lanes farther = pick(stays, inner, outer);
+		lanes q = error_of_c(sieve, &others, farther * farther), error_b = error_of_b(sieve, &others);
 		lanes error_a = (16 * u + 8 * sieve->roundoff) * (others.s * others.s) + tiny;
 		struct meeting meeting = meeting_of(&others, others.rr - inner * inner, q, error_b, &step);
 		lanes c = others.rr - outer * outer, a = others.a - error_a;
@@ -186,18 +188,24 @@ INLINE size_t hold(const struct sieve *sieve, const struct shadow *shadow, uint3
 		lanes low = parting(others.a + error_a, others.b + error_b, pick(within, c + q, zero - 1), &step) * (1 - fine);
 		lanes high =
 			parting(pick(step.less(zero, a), a, zero), others.b - error_b, pick(surely, c - q, zero - 1), &step);
-		low = pick(within, low, -never);
-		high = pick(surely, high * (1 + fine), never);
+		low = pick(stays, never, pick(within, low, -never));
+		high = pick(surely & ~stays, high * (1 + fine), never);
 		low = pick(~meeting.misses & step.less(meeting.low, low), meeting.low, low);
 		high = pick(meeting.sure & step.less(meeting.high, high), meeting.high, high);
-		flags out = ~step.less(number, zero + (float)(count - k));
+		flags out = ~step.less(number, zero + (float)(count - k)) | (stays & meeting.misses);
 		latest = latest_of(sieve, latest, pick(~out, high, never), &step);
 		out |= step.less(zero + latest, low);
-		uint32_t each[LANES];
-		for (uint32_t lane = 0; lane < LANES; lane++) each[lane] = (uint32_t)k + lane;
-		found += step.pack(~step.bits(out) & all_lanes, each, kept + found);
+		for (uint32_t in = ~step.bits(out) & all_lanes; in; in &= in - 1, found++) {
+			int lane = __builtin_ctz(in);
+			soonest[found] = low[lane];
+			kept[found] = (uint32_t)k + (uint32_t)lane;
+		}
 	}
-	return found;
+	for (size_t k = 0; k < found; k++) { /* by what was learnt later */
+		kept[left] = kept[k];
+		left += !(latest < soonest[k]);
+	}
+	return left;
 }
 
 INLINE void fetch_any(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS])

@@ -57,8 +57,10 @@ typedef size_t sieve_pass(const struct sieve *sieve, const struct shadow *shadow
  * arrays hold 16 more at their ends: entries that name particles which exist, and any distances. */
 struct held {
 	const uint32_t *entry;
-	const float *outer, *inner; /* inner: 0 where there is nothing to meet */
+	const float *outer, *inner; /* outer: 0 where they do not part; inner: 0 where there is nothing to meet */
 };
+
+enum { HELD_MOST = 64 }; /* pairs at once */
 
 /* The same for `count` pairs of this kind, by order always: writes the numbers of those whose event may come first to
  * `kept`, which has room for 16 more, and returns how many there are. When a pair parts, the root of a t^2 + 2 b t + c

@@ -24,7 +24,8 @@ static inline bool with_particle(uint8_t meets)
 	return meets != TOUCHSTONE_WALL && meets != TOUCHSTONE_CROSSING;
 }
 
-enum { NEXT_IS_PHYSICAL = 0 }; /* otherwise 1 + 2 axis + (side > 0): a cell is left that way */
+/* What is next for a particle, otherwise 1 + 2 axis + (side > 0): a cell is left that way. STRAYS: from its anchor. */
+enum { NEXT_IS_PHYSICAL = 0, STRAYS = 7 };
 
 /* Where a particle is and what comes next for it, as far as it knows: one cache line in binary64. */
 struct itinerary {
@@ -75,13 +76,19 @@ struct step {
 	uint64_t pairs; /* in that state now */
 };
 
+/* Between which distances a pair in some state is; 0: whatever is nearer, or farther, nothing happens there. */
+struct limits {
+	float outer, inner;
+};
+
 /* What the particles of two species are to each other. */
 struct potential {
 	bool hard; /* whether they collide: */
 	num core;  /* at this distance */
 	struct touchstone_restitution restitution;
 	uint32_t step_count;
-	struct step *step; /* from outside in */
+	struct step *step;     /* from outside in */
+	struct limits *limits; /* for the sieve: of each state */
 };
 
 /* A virtual wall, which stands once in every image of the box along `axis`. */
@@ -102,6 +109,16 @@ struct shadows {
 	double per_length, per_time, per_speed; /* units, all powers of two */
 	double now;                             /* time of the search, since the base */
 	double age;                             /* of the oldest last event, at the base */
+};
+
+/* Neighbour lists: engine/neighbours.inl. */
+struct neighbours {
+	double skin;           /* how far from a distance at which something happens a listed pair may be; 0: no lists */
+	double free;           /* how far a particle may go from its anchor before its list is made anew */
+	struct anchor *anchor; /* per particle: where it was when its list was made */
+	struct bands bands;    /* of distances between anchors: of those that are listed */
+	bands_lister *lister;
+	struct pairs pairs; /* those listed, each with 1 + its state */
 };
 
 struct touchstone_engine {
@@ -175,6 +192,7 @@ struct touchstone_engine {
 	struct cells cells;
 	uint32_t *candidate[2]; /* entries that a search has listed; two searches may be under way */
 	struct shadows shadows;
+	struct neighbours neighbours;
 	struct agenda agenda;
 
 	/* what has happened */

@@ -24,13 +24,38 @@ static void consider_partner(struct touchstone_engine *engine, uint32_t i, struc
 /* The same with all of them, as far as the sieve lets them pass. */
 static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
 {
-	uint32_t count, kept[HELD + 16];
+	uint32_t count, kept[HELD_MOST + 16];
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
 	for (uint32_t some; count; captured += some, count -= some) {
-		some = count < HELD ? count : HELD;
-		size_t left = sift_captured(engine, i, captured, some, plan, kept);
+		some = count < HELD_MOST ? count : HELD_MOST;
+		size_t left = sift_states(engine, i, captured, some, 0, plan, kept);
 		for (size_t k = 0; k < left; k++) consider_partner(engine, i, captured[kept[k]], plan);
 	}
+}
+
+/* The same for so many of the pairs that stand in its neighbour list. */
+static void consider_listed(struct touchstone_engine *engine, uint32_t i, const struct pair_state *list, uint32_t count,
+							struct plan *plan)
+{
+	uint32_t kept[HELD_MOST + 16];
+	for (uint32_t some; count; list += some, count -= some) {
+		some = count < HELD_MOST ? count : HELD_MOST;
+		size_t left = sift_states(engine, i, list, some, 1, plan, kept);
+		for (size_t k = 0; k < left; k++) {
+			struct pair_state pair = {list[kept[k]].entry, list[kept[k]].state - 1};
+			if (pair.state)
+				consider_partner(engine, i, pair, plan);
+			else
+				consider_pairs(engine, i, &pair.entry, 1, plan);
+		}
+	}
+}
+
+static void consider_neighbours(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
+{
+	uint32_t count;
+	const struct pair_state *list = pairs_of(&engine->neighbours.pairs, i, &count);
+	consider_listed(engine, i, list, count, plan);
 }
 
 /* Takes what particle i has captured out of a list of entries it may meet; returns how many are left. The sieve may
