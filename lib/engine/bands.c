@@ -98,12 +98,13 @@ AVX512 static size_t list_512(const struct bands *bands, const struct anchor *an
 	size_t all = 0;
 	for (size_t k = 0; k < count; k += 16) {
 		__m512i some = _mm512_loadu_si512(entry + k), one = _mm512_set1_epi32(1);
-		__m512 at[3], shift[3];
+		__m512 at[3], shift[3] = {_mm512_setzero_ps(), _mm512_setzero_ps(), _mm512_setzero_ps()};
 		fetch(anchor, entry + k, at);
-		for (int axis = 0; axis < 3; axis++) {
+		bool images = _mm512_test_epi32_mask(some, _mm512_set1_epi32((int)~ENTRY_PARTICLE));
+		for (int axis = 0; images && axis < 3; axis++) {
 			__m512i code = _mm512_srli_epi32(some, (unsigned)(ENTRY_BITS + 2 * axis));
-			__m512i image = _mm512_sub_epi32(_mm512_and_epi32(code, one),
-											 _mm512_and_epi32(_mm512_srli_epi32(code, 1), one));
+			__m512i image =
+				_mm512_sub_epi32(_mm512_and_epi32(code, one), _mm512_and_epi32(_mm512_srli_epi32(code, 1), one));
 			shift[axis] = _mm512_mul_ps(_mm512_cvtepi32_ps(image), _mm512_set1_ps(box[axis]));
 		}
 		__mmask16 used = count - k < 16 ? (__mmask16)((1u << (count - k)) - 1) : 0xffff;

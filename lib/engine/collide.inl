@@ -227,7 +227,7 @@ static void collide(struct touchstone_engine *engine, uint32_t i, uint32_t entry
 		restitution = restitution_at(law, speed);
 	}
 	num kick = mul(add(from_double(1), from_double(restitution)), divide(encounter.rv, encounter.rr));
-	int state = engine->pairs.bucket ? (int)pairs_get(&engine->pairs, i, entry) : 0;
+	int state = (int)state_of(engine, i, entry);
 	struct touchstone_event event = {.kind = TOUCHSTONE_CONTACT, .before = state, .after = state};
 	part(engine, &encounter, kick, &event, contact_distance(engine, i, encounter.j));
 	if (engine->temperature && !engine->elastic) exchange_heat(engine, i, encounter.j);

@@ -30,11 +30,25 @@ static void engine_destroy(struct touchstone_engine *engine)
 	pairs_destroy(&engine->pairs);
 	pairs_destroy(&engine->neighbours.pairs);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body,           engine->place,          engine->itinerary, engine->index_of,
-					 engine->radius,         engine->mass,           engine->wall,      engine->candidate[0],
-					 engine->shadows.shadow, engine->shadows.radius, engine->potential, engine->potential_of,
-					 engine->virtual_wall,   engine->side,           engine->crossed,   engine->captured,
-					 engine->temperature,    engine->last_met,       engine->neighbours.anchor};
+	void *owned[] = {engine->body,
+					 engine->place,
+					 engine->itinerary,
+					 engine->index_of,
+					 engine->radius,
+					 engine->mass,
+					 engine->wall,
+					 engine->candidate[0],
+					 engine->shadows.shadow,
+					 engine->shadows.radius,
+					 engine->potential,
+					 engine->potential_of,
+					 engine->virtual_wall,
+					 engine->side,
+					 engine->crossed,
+					 engine->captured,
+					 engine->temperature,
+					 engine->last_met,
+					 engine->neighbours.anchor};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }

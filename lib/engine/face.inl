@@ -4,7 +4,8 @@ static size_t state_memory(const struct touchstone_engine *engine)
 {
 	size_t walls = engine->virtual_wall_count * sizeof *engine->side + sizeof *engine->crossed;
 	size_t marks = engine->captured ? engine->count * sizeof *engine->captured : 0;
-	return pairs_memory(&engine->pairs) + neighbours_memory(engine) + marks + (engine->side ? engine->count * walls : 0);
+	return pairs_memory(&engine->pairs) + neighbours_memory(engine) + marks +
+		   (engine->side ? engine->count * walls : 0);
 }
 
 static size_t engine_memory(const struct touchstone_engine *engine)

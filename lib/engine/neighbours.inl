@@ -1,11 +1,12 @@
 /* Neighbour lists (Verlet 1967, Phys. Rev. 159, 98), for particles that have many others within a step of their
  * potential. Most of those are far from every distance at which something may happen to them, and stay so for a while.
  *
- * Every particle has an anchor: where it was when its list was made. Pairs whose anchors are no farther than a skin from
- * such a distance are listed, by both of their particles, and after an event only they are asked. A particle that has
- * gone about half a skin from its anchor gets another one: this takes the place of its passage from cell to cell, and
- * cells hold anchors. A pair that is not listed is farther from every step than the cells' slack, on the side that its
- * state says, so that nothing can happen to it. This needs a method whose states and distances agree up to rounding. */
+ * Every particle has an anchor: where it was when its list was made. Pairs whose anchors are no farther than a skin
+ * from such a distance are listed, by both of their particles, and after an event only they are asked. A particle that
+ * has gone about half a skin from its anchor gets another one: this takes the place of its passage from cell to cell,
+ * and cells hold anchors. A pair that is not listed is farther from every step than the cells' slack, on the side that
+ * its state says, so that nothing can happen to it. This needs a method whose states and distances agree up to
+ * rounding. */
 
 /* Where along an axis the last event of a particle was, in the image of the box it is in. */
 static inline double coordinate_left(const struct touchstone_engine *engine, uint32_t i, int axis)
@@ -44,14 +45,15 @@ static double listed(const struct touchstone_engine *engine, const struct bands 
 }
 
 /* Chooses the skin, or none where lists would not pay. Found by trial: lists of about as many as the sieve takes at
- * once; where fewer than one partner is within the outermost step, cells are as good. */
+ * once; where fewer than one partner is within the outermost step, cells are as good. Sides of virtual walls are told
+ * for particles in the box, which one that has left its anchor may not be. */
 static void choose_skin(struct touchstone_engine *engine)
 {
-	static const double members = 16, fewest = 1;
+	static const double members = 20, fewest = 1;
 	struct neighbours *neighbours = &engine->neighbours;
 	bool exact = engine->method->sieve == SIEVE_ORDER && engine->method->policy == 0;
 	neighbours->skin = 0;
-	if (!engine->captured || !engine->shadows.shadow || !exact || engine->search != TOUCHSTONE_CELLS) return;
+	if (!engine->captured || !engine->shadows.shadow || !exact || engine->side) return;
 	struct bands bands = {.count = 1, .high = {(float)(engine->reach * engine->reach)}};
 	if (listed(engine, &bands) < fewest) return;
 	double thin = 0, thick = engine->reach, rounding = engine->slack;
@@ -112,7 +114,7 @@ static const float nowhere[3] = {NAN, NAN, NAN};
 
 static bool enlist(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
 {
-	return pairs_set(&engine->neighbours.pairs, i, entry, 1 + pairs_get(&engine->pairs, i, entry));
+	return pairs_add(&engine->neighbours.pairs, i, entry, 1 + pairs_get(&engine->pairs, i, entry));
 }
 
 /* Takes out of the list of particle i, which had its anchor at `from`, all that are not near `to`. */

@@ -68,9 +68,19 @@ static bool resize(struct pairs *pairs, struct pair_bucket *bucket, int size)
 
 static struct pair_state *find(const struct pairs *pairs, uint32_t i, uint32_t entry)
 {
-	struct pair_state *slot = pairs->slot + pairs->bucket[i].first;
-	for (uint32_t k = 0; k < pairs->bucket[i].used; k++)
-		if (slot[k].entry == entry) return &slot[k];
+	typedef uint32_t two_slots __attribute__((vector_size(2 * sizeof(struct pair_state))));
+	enum { AT_ONCE = 8 };
+	const two_slots wanted = {entry, 0, entry, 0}; /* no state is 0 */
+	struct pair_state *slot = pairs->slot + pairs->bucket[i].first, *end = slot + pairs->bucket[i].used;
+	for (; end - slot >= AT_ONCE; slot += AT_ONCE) {
+		two_slots two[AT_ONCE / 2];
+		memcpy(two, slot, sizeof two);
+		__typeof__(two[0] == wanted) same =
+			(two[0] == wanted) | (two[1] == wanted) | (two[2] == wanted) | (two[3] == wanted);
+		if (same[0] | same[2]) break;
+	}
+	for (; slot < end; slot++)
+		if (slot->entry == entry) return slot;
 	return NULL;
 }
 
@@ -80,29 +90,41 @@ uint32_t pairs_get(const struct pairs *pairs, uint32_t i, uint32_t entry)
 	return slot ? slot->state : 0;
 }
 
-static bool set_half(struct pairs *pairs, uint32_t i, uint32_t entry, uint32_t state)
+static bool append(struct pairs *pairs, uint32_t i, uint32_t entry, uint32_t state)
 {
 	struct pair_bucket *bucket = &pairs->bucket[i];
-	struct pair_state *slot = find(pairs, i, entry);
-	if (slot && state) {
-		slot->state = state;
-	} else if (slot) {
-		*slot = pairs->slot[bucket->first + --bucket->used];
-		if (bucket->used == 0) return resize(pairs, bucket, 0);
-		if (bucket->size > 1 && bucket->used == 1u << bucket->size >> 2) return resize(pairs, bucket, bucket->size - 1);
-	} else if (state) {
-		bool full = bucket->used == (bucket->size ? 1u << bucket->size : 0);
-		if (full && !resize(pairs, bucket, bucket->size + 1)) return false;
-		pairs->slot[bucket->first + bucket->used++] = (struct pair_state){entry, state};
-	}
+	bool full = bucket->used == (bucket->size ? 1u << bucket->size : 0);
+	if (full && !resize(pairs, bucket, bucket->size + 1)) return false;
+	pairs->slot[bucket->first + bucket->used++] = (struct pair_state){entry, state};
 	return true;
+}
+
+static bool drop(struct pairs *pairs, uint32_t i, struct pair_state *slot)
+{
+	struct pair_bucket *bucket = &pairs->bucket[i];
+	*slot = pairs->slot[bucket->first + --bucket->used];
+	if (bucket->used == 0) return resize(pairs, bucket, 0);
+	bool roomy = bucket->size > 1 && bucket->used == 1u << bucket->size >> 2;
+	return !roomy || resize(pairs, bucket, bucket->size - 1);
+}
+
+bool pairs_add(struct pairs *pairs, uint32_t i, uint32_t entry, uint32_t state)
+{
+	pairs->count++;
+	return append(pairs, i, entry, state) && append(pairs, entry_particle(entry), entry_mirrored(entry, i), state);
 }
 
 bool pairs_set(struct pairs *pairs, uint32_t i, uint32_t entry, uint32_t state)
 {
-	bool was = find(pairs, i, entry), is = state;
-	pairs->count += (uint64_t)is - (uint64_t)was;
-	return set_half(pairs, i, entry, state) && set_half(pairs, entry_particle(entry), entry_mirrored(entry, i), state);
+	struct pair_state *slot = find(pairs, i, entry);
+	if (!slot) return !state || pairs_add(pairs, i, entry, state);
+	uint32_t j = entry_particle(entry);
+	if (state) {
+		slot->state = find(pairs, j, entry_mirrored(entry, i))->state = state;
+		return true;
+	}
+	pairs->count--;
+	return drop(pairs, i, slot) && drop(pairs, j, find(pairs, j, entry_mirrored(entry, i)));
 }
 
 /* What lies on the other side already could not be captured after the move, nor before it: cells are wider than any

@@ -49,13 +49,15 @@ static inline const struct pair_state *pairs_of(const struct pairs *pairs, uint3
 /* Asks for what pairs_of() will read. */
 static inline void pairs_ahead(const struct pairs *pairs, uint32_t i)
 {
-	const struct pair_state *slot = pairs->slot + pairs->bucket[i].first;
-	__builtin_prefetch(slot);
-	__builtin_prefetch(slot + 8);
+	const struct pair_state *slot = pairs->slot + pairs->bucket[i].first, *end = slot + pairs->bucket[i].used;
+	for (; slot < end; slot += 64 / sizeof *slot) __builtin_prefetch(slot);
 }
 
 /* State of particle i and an entry; 0 for those not stored. */
 uint32_t pairs_get(const struct pairs *pairs, uint32_t i, uint32_t entry);
+
+/* Stores the state of particle i and an entry that are not stored, for both of them; false when memory ran out. */
+bool pairs_add(struct pairs *pairs, uint32_t i, uint32_t entry, uint32_t state);
 
 /* Gives particle i and an entry another state, for both of them; false when memory ran out. */
 bool pairs_set(struct pairs *pairs, uint32_t i, uint32_t entry, uint32_t state);

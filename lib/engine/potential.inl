@@ -72,14 +72,23 @@ static double potential_energy(const struct touchstone_engine *engine)
 	return sum;
 }
 
+/* State of particle i and an entry with which it has an event. */
+static inline uint32_t state_of(const struct touchstone_engine *engine, uint32_t i, uint32_t entry)
+{
+	const struct neighbours *neighbours = &engine->neighbours;
+	if (neighbours->pairs.bucket) return pairs_get(&neighbours->pairs, i, entry) - 1; /* a shorter list */
+	return engine->pairs.bucket ? pairs_get(&engine->pairs, i, entry) : 0;
+}
+
 /* Gives a pair that has the potential `potential` another state, and counts it there. */
 static bool set_state(struct touchstone_engine *engine, const struct potential *potential, uint32_t i, uint32_t entry,
 					  uint32_t before, uint32_t after)
 {
 	if (before) potential->step[before - 1].pairs--;
 	if (after) potential->step[after - 1].pairs++;
-	return pairs_set(&engine->pairs, i, entry, after) &&
-		   (!engine->neighbours.pairs.bucket || pairs_set(&engine->neighbours.pairs, i, entry, 1 + after));
+	bool enough = before ? pairs_set(&engine->pairs, i, entry, after) : pairs_add(&engine->pairs, i, entry, after);
+	if (engine->neighbours.pairs.bucket) enough &= pairs_set(&engine->neighbours.pairs, i, entry, 1 + after);
+	return enough;
 }
 
 /* The state that a pair's distance speaks for, its square being given: at a step the pair is outside it. */

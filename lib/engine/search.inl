@@ -135,9 +135,10 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 }
 
 static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
-static void consider_listed(struct touchstone_engine *engine, uint32_t i, const struct pair_state *list, uint32_t count,
-							struct plan *plan);
-static void consider_neighbours(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
+static void consider_states(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
+							uint32_t more, struct plan *plan);
+static void consider_neighbours(struct touchstone_engine *engine, const uint32_t *particle, int particles,
+								struct plan plan[2]);
 static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates);
 static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
 static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
@@ -150,11 +151,11 @@ static void predict_listed(struct touchstone_engine *engine, const uint32_t *par
 	if (engine->executing && engine->tested) {
 		size_t candidates[2] = {0};
 		for (int p = 0; p < particles; p++)
-			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p],
-										 engine->candidate[p]);
+			candidates[p] =
+				cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], engine->candidate[p]);
 		tell_tests(engine, particle, engine->candidate, candidates, particles);
 	}
-	for (int p = 0; p < particles; p++) consider_neighbours(engine, particle[p], &plan[p]);
+	consider_neighbours(engine, particle, particles, plan);
 }
 
 /* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
@@ -164,8 +165,8 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 	struct plan plan[2];
 	size_t candidates[2] = {0};
 	bool captures = engine->captured;
-	for (int p = 0; captures && p < particles; p++)
-		pairs_ahead(engine->neighbours.skin > 0 ? &engine->neighbours.pairs : &engine->pairs, particle[p]);
+	if (captures && engine->neighbours.skin == 0)
+		for (int p = 0; p < particles; p++) pairs_ahead(&engine->pairs, particle[p]);
 	for (int p = 0; p < particles; p++) plan[p] = (struct plan){.meets = MEETS_NOTHING};
 	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
 	for (int p = 0; engine->side && p < particles; p++) consider_virtual_walls(engine, particle[p], &plan[p]);
@@ -214,7 +215,7 @@ static void predict_fresh(struct touchstone_engine *engine, uint32_t i, size_t f
 	for (size_t k = 0; k < fresh; k++) {
 		uint32_t entry = engine->candidate[1][k];
 		struct pair_state pair = {entry, pairs_get(&engine->neighbours.pairs, i, entry)};
-		consider_listed(engine, i, &pair, 1, &plan);
+		consider_states(engine, i, &pair, 1, 1, &plan);
 	}
 	plan_keep(engine, i, &plan);
 }

@@ -96,30 +96,49 @@ static void keep_plan(struct touchstone_engine *engine, const struct plan *plan)
 	sieve->latest = (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->drift);
 }
 
-/* Of `count` pairs, each with `more` than its state, writes the numbers of those that may have the next event of
- * particle i, before its plan. No more than HELD_MOST at once. */
-static size_t sift_states(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
-						  uint32_t more, const struct plan *plan, uint32_t kept[HELD_MOST + 16])
+/* Pairs of one particle, and when each of them may have its next event. */
+enum { FORESEEN = 64 };
+struct forecast {
+	const struct pair_state *pair;
+	uint32_t count, more;         /* each holds so much more than its state */
+	uint32_t first;               /* which of them may have the first event, */
+	float soonest[FORESEEN + 16]; /* and the times after the search's before which they have none */
+};
+
+/* Whether this is of use: whether pairs may be left out for others. */
+static bool sieves_states(const struct touchstone_engine *engine)
+{
+	return engine->shadows.shadow && engine->method->sieve == SIEVE_ORDER;
+}
+
+/* Foresees `count` pairs of particle i, no more than FORESEEN. */
+static void foresee(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
+					uint32_t more, struct forecast *forecast)
 {
 	struct shadows *shadows = &engine->shadows;
-	uint32_t entry[HELD_MOST + 16], images = 0;
-	float outer[HELD_MOST + 16], inner[HELD_MOST + 16], scale = (float)shadows->per_length;
-	if (!shadows->shadow || engine->method->sieve != SIEVE_ORDER) {
-		for (uint32_t k = 0; k < count; k++) kept[k] = k;
-		return count;
-	}
+	uint32_t entry[FORESEEN + 16], images = 0;
+	float outer[FORESEEN + 16], inner[FORESEEN + 16], scale = (float)shadows->per_length;
+	const struct limits *limits = engine->species_count == 1 ? engine->potential->limits : NULL;
+	forecast->pair = pair;
+	forecast->count = count;
+	forecast->more = more;
+	forecast->first = 0;
+	forecast->soonest[0] = INFINITY;
+	if (!count) return;
 	for (uint32_t k = 0; k < count; k++) {
-		struct limits limits = limits_of(engine, i, entry_particle(pair[k].entry), pair[k].state - more);
+		uint32_t state = pair[k].state - more;
 		entry[k] = pair[k].entry;
-		images |= entry[k] >> ENTRY_BITS;
-		outer[k] = limits.outer * scale;
-		inner[k] = limits.inner * scale;
+		images |= entry[k];
+		struct limits own = limits ? limits[state] : limits_of(engine, i, entry_particle(entry[k]), state);
+		outer[k] = own.outer * scale;
+		inner[k] = own.inner * scale;
 	}
 	for (uint32_t k = count; k < count + 16; k++) entry[k] = entry[0], outer[k] = inner[k] = 1;
-	shadows->sieve.images = images;
-	keep_plan(engine, plan);
+	shadows->sieve.images = images >> ENTRY_BITS;
 	struct held held = {entry, outer, inner};
-	return shadows->machine->hold(&shadows->sieve, shadows->shadow, i, &held, count, kept);
+	forecast->first =
+		(uint32_t)shadows->machine->hold(&shadows->sieve, shadows->shadow, i, &held, count, forecast->soonest);
+	__builtin_prefetch(&engine->body[entry_particle(entry[forecast->first])]);
 }
 
 /* Of the first `candidates` entries listed, keeps those that particle i may meet before its plan. */

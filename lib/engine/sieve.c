@@ -155,57 +155,51 @@ INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint3
 	return kept;
 }
 
-/* The root of a t^2 + 2 b t + c where a >= 0 > c: nothing cancels, and it errs by a few u. It falls as any of the three
- * grows. */
-INLINE lanes parting(lanes a, lanes b, lanes c, const struct steps *step)
+/* No event of a pair comes before: that of meeting where it surely meets, that of parting where it surely does not, and
+ * now where that is in doubt. Both are a quotient with a root in it, of which one is formed. */
+INLINE lanes bound_of(const struct sieve *sieve, const struct others *o, lanes inner, lanes outer,
+					  const struct steps *step)
 {
 	const lanes zero = {0};
-	lanes end = step->root(b * b - a * c);
-	flags parts = step->less(zero, b);
-	return pick(parts, -c, end - b) / pick(parts, b + end, a);
+	const float fine = 0x1p-18f + 16 * sieve->roundoff;
+	flags parts = step->less(zero, outer);
+	lanes farther = pick(parts, outer, inner);
+	lanes q = error_of_c(sieve, o, farther * farther), error_b = error_of_b(sieve, o), b = o->b + error_b;
+	lanes error_a = (16 * u + 8 * sieve->roundoff) * (o->s * o->s) + tiny, a = o->a + error_a;
+	lanes c_meets = o->rr - inner * inner, c = o->rr - outer * outer + q;
+	lanes error_d = 2 * (o->s * o->s) * q + tiny, d = o->b * o->b - o->a * c_meets;
+	flags misses = step->less(error_b, o->b) | step->less(d + error_d, zero);
+	flags meets = step->less(b, zero) & step->less(error_d, d);
+	lanes square = pick(meets, d + error_d, b * b * (1 - 32 * u) - a * c);
+	lanes end = step->root(pick(step->less(zero, square), square, zero));
+	flags opens = step->less(zero, b);
+	lanes over = pick(meets, c_meets - q, pick(opens, -c, end - b));
+	lanes under = pick(meets, error_b - o->b + end, pick(opens, b + end, a));
+	lanes low = over / under * (1 - fine);
+	return pick(meets | (misses & parts), low, pick(misses, zero + INFINITY, zero));
 }
 
 INLINE size_t hold(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, const struct held *held,
-				   size_t count, uint32_t *kept, const struct steps step)
+				   size_t count, float *soonest, const struct steps step)
 {
 	const struct own own = own_of(sieve, &shadow[i]);
-	const lanes zero = {0}, never = zero + INFINITY, number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-	const float fine = 0x1p-18f + 16 * sieve->roundoff;
-	float latest = sieve->latest, soonest[HELD_MOST];
-	size_t found = 0, left = 0;
+	const lanes zero = {0}, number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+	float least = INFINITY;
+	size_t first = 0;
 	for (size_t k = 0; k < count; k += LANES) {
 		struct others others = others_of(sieve, &own, shadow, held->entry + k, &step);
 		lanes inner, outer;
 		memcpy(&inner, held->inner + k, sizeof inner);
 		memcpy(&outer, held->outer + k, sizeof outer);
-		flags stays = ~step.less(zero, outer);
-		lanes farther = pick(stays, inner, outer);
-		lanes q = error_of_c(sieve, &others, farther * farther), error_b = error_of_b(sieve, &others);
-		lanes error_a = (16 * u + 8 * sieve->roundoff) * (others.s * others.s) + tiny;
-		struct meeting meeting = meeting_of(&others, others.rr - inner * inner, q, error_b, &step);
-		lanes c = others.rr - outer * outer, a = others.a - error_a;
-		flags within = step.less(c + q, zero), surely = step.less(c - q, zero);
-		lanes low = parting(others.a + error_a, others.b + error_b, pick(within, c + q, zero - 1), &step) * (1 - fine);
-		lanes high =
-			parting(pick(step.less(zero, a), a, zero), others.b - error_b, pick(surely, c - q, zero - 1), &step);
-		low = pick(stays, never, pick(within, low, -never));
-		high = pick(surely & ~stays, high * (1 + fine), never);
-		low = pick(~meeting.misses & step.less(meeting.low, low), meeting.low, low);
-		high = pick(meeting.sure & step.less(meeting.high, high), meeting.high, high);
-		flags out = ~step.less(number, zero + (float)(count - k)) | (stays & meeting.misses);
-		latest = latest_of(sieve, latest, pick(~out, high, never), &step);
-		out |= step.less(zero + latest, low);
-		for (uint32_t in = ~step.bits(out) & all_lanes; in; in &= in - 1, found++) {
-			int lane = __builtin_ctz(in);
-			soonest[found] = low[lane];
-			kept[found] = (uint32_t)k + (uint32_t)lane;
-		}
+		lanes low = bound_of(sieve, &others, inner, outer, &step);
+		low = pick(step.less(number, zero + (float)(count - k)), low, zero + INFINITY);
+		memcpy(soonest + k, &low, sizeof low);
+		float least_here = step.least(low);
+		if (!(least_here < least)) continue;
+		least = least_here;
+		first = k + (size_t)__builtin_ctz(~step.bits(step.less(zero + least, low)));
 	}
-	for (size_t k = 0; k < found; k++) { /* by what was learnt later */
-		kept[left] = kept[k];
-		left += !(latest < soonest[k]);
-	}
-	return left;
+	return first;
 }
 
 INLINE void fetch_any(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS])
@@ -259,9 +253,9 @@ static size_t pass_any(const struct sieve *sieve, const struct shadow *shadow, u
 }
 
 static size_t hold_any(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, const struct held *held,
-					   size_t count, uint32_t *kept)
+					   size_t count, float *soonest)
 {
-	return hold(sieve, shadow, self, held, count, kept,
+	return hold(sieve, shadow, self, held, count, soonest,
 				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
 }
 
@@ -290,9 +284,9 @@ AVX2 static size_t pass_avx2(const struct sieve *sieve, const struct shadow *sha
 }
 
 AVX2 static size_t hold_avx2(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
-							 const struct held *held, size_t count, uint32_t *kept)
+							 const struct held *held, size_t count, float *soonest)
 {
-	return hold(sieve, shadow, self, held, count, kept,
+	return hold(sieve, shadow, self, held, count, soonest,
 				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
 }
 
@@ -358,9 +352,9 @@ AVX512 static size_t pass_512(const struct sieve *sieve, const struct shadow *sh
 }
 
 AVX512 static size_t hold_512(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
-							  const struct held *held, size_t count, uint32_t *kept)
+							  const struct held *held, size_t count, float *soonest)
 {
-	return hold(sieve, shadow, self, held, count, kept,
+	return hold(sieve, shadow, self, held, count, soonest,
 				(struct steps){fetch_512, root_512, less_512, bits_512, least_512, pack_any});
 }
 #endif

@@ -60,13 +60,14 @@ struct held {
 	const float *outer, *inner; /* outer: 0 where they do not part; inner: 0 where there is nothing to meet */
 };
 
-enum { HELD_MOST = 64 }; /* pairs at once */
-
-/* The same for `count` pairs of this kind, by order always: writes the numbers of those whose event may come first to
- * `kept`, which has room for 16 more, and returns how many there are. When a pair parts, the root of a t^2 + 2 b t + c
- * with c < 0, falls as any of a, b and c grows, so that their errors bound it: E_c, E_b, and (16 u + 8 n) S^2 of a. */
+/* Writes to `soonest`, which has room for 16 more, a time after now for each of `count` pairs of this kind before which
+ * it has no event: INFINITY where it has none. Returns the number of the pair for which it is least.
+ *
+ * Where a pair surely meets, this is the lower bound that the sieve has. Where it surely does not, it parts: at the
+ * larger root of a t^2 + 2 b t + c, which falls as any of a, b and c grows, so that their errors bound it: E_c, E_b,
+ * and (16 u + 8 n) S^2 of a. */
 typedef size_t sieve_hold(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
-						  const struct held *held, size_t count, uint32_t *kept);
+						  const struct held *held, size_t count, float *soonest);
 
 /* Writes a shadow whole: what is written in pieces is slow to be read back whole. */
 typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,

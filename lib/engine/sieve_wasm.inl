@@ -66,8 +66,8 @@ static size_t pass_128(const struct sieve *sieve, const struct shadow *shadow, u
 }
 
 static size_t hold_128(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, const struct held *held,
-					   size_t count, uint32_t *kept)
+					   size_t count, float *soonest)
 {
-	return hold(sieve, shadow, self, held, count, kept,
+	return hold(sieve, shadow, self, held, count, soonest,
 				(struct steps){fetch_128, root_128, less_128, bits_128, least_128, pack_any});
 }

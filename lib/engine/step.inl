@@ -21,41 +21,61 @@ static void consider_partner(struct touchstone_engine *engine, uint32_t i, struc
 	consider(engine, i, later, wait, innermost ? TOUCHSTONE_CONTACT : TOUCHSTONE_CAPTURE, entry, plan);
 }
 
-/* The same with all of them, as far as the sieve lets them pass. */
+/* Weighs the events of particle i with so many pairs: with that which may come first, and then with those that may come
+ * before it. */
+static void consider_forecast(struct touchstone_engine *engine, uint32_t i, const struct forecast *forecast,
+							  struct plan *plan)
+{
+	const float *latest = &engine->shadows.sieve.latest;
+	keep_plan(engine, plan);
+	for (uint32_t k = 0, next = forecast->first; k <= forecast->count; next = k++) {
+		bool again = k > 0 && next == forecast->first;
+		if (again || forecast->soonest[next] > *latest || forecast->soonest[next] == INFINITY) continue;
+		struct pair_state pair = {forecast->pair[next].entry, forecast->pair[next].state - forecast->more};
+		if (pair.state)
+			consider_partner(engine, i, pair, plan);
+		else
+			consider_pairs(engine, i, &pair.entry, 1, plan);
+		keep_plan(engine, plan);
+	}
+}
+
+/* The same with `count` pairs that hold `more` than their state. */
+static void consider_states(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
+							uint32_t more, struct plan *plan)
+{
+	for (uint32_t some; count; pair += some, count -= some) {
+		struct forecast forecast;
+		some = count < FORESEEN ? count : FORESEEN;
+		foresee(engine, i, pair, some, more, &forecast);
+		consider_forecast(engine, i, &forecast, plan);
+	}
+}
+
+/* With all that a particle has captured. */
 static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
 {
-	uint32_t count, kept[HELD_MOST + 16];
-	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
-	for (uint32_t some; count; captured += some, count -= some) {
-		some = count < HELD_MOST ? count : HELD_MOST;
-		size_t left = sift_states(engine, i, captured, some, 0, plan, kept);
-		for (size_t k = 0; k < left; k++) consider_partner(engine, i, captured[kept[k]], plan);
-	}
-}
-
-/* The same for so many of the pairs that stand in its neighbour list. */
-static void consider_listed(struct touchstone_engine *engine, uint32_t i, const struct pair_state *list, uint32_t count,
-							struct plan *plan)
-{
-	uint32_t kept[HELD_MOST + 16];
-	for (uint32_t some; count; list += some, count -= some) {
-		some = count < HELD_MOST ? count : HELD_MOST;
-		size_t left = sift_states(engine, i, list, some, 1, plan, kept);
-		for (size_t k = 0; k < left; k++) {
-			struct pair_state pair = {list[kept[k]].entry, list[kept[k]].state - 1};
-			if (pair.state)
-				consider_partner(engine, i, pair, plan);
-			else
-				consider_pairs(engine, i, &pair.entry, 1, plan);
-		}
-	}
-}
-
-static void consider_neighbours(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
-{
 	uint32_t count;
-	const struct pair_state *list = pairs_of(&engine->neighbours.pairs, i, &count);
-	consider_listed(engine, i, list, count, plan);
+	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
+	if (sieves_states(engine))
+		consider_states(engine, i, captured, count, 0, plan);
+	else
+		for (uint32_t k = 0; k < count; k++) consider_partner(engine, i, captured[k], plan);
+}
+
+/* With all that are listed by one or two particles, step by step together. */
+static void consider_neighbours(struct touchstone_engine *engine, const uint32_t *particle, int particles,
+								struct plan plan[2])
+{
+	struct forecast forecast[2];
+	for (int p = 0; p < particles; p++) {
+		uint32_t count;
+		const struct pair_state *list = pairs_of(&engine->neighbours.pairs, particle[p], &count);
+		uint32_t some = count < FORESEEN ? count : FORESEEN;
+		foresee(engine, particle[p], list, some, 1, &forecast[p]);
+		if (count > some) consider_states(engine, particle[p], list + some, count - some, 1, &plan[p]);
+	}
+	for (int p = 0; p < particles; p++) consider_forecast(engine, particle[p], &forecast[p], &plan[p]);
 }
 
 /* Takes what particle i has captured out of a list of entries it may meet; returns how many are left. The sieve may
@@ -117,7 +137,7 @@ static void meet_step(struct touchstone_engine *engine, uint32_t i, uint32_t ent
 {
 	struct encounter encounter = bring_together(engine, i, entry);
 	const struct potential *potential = potential_between(engine, i, encounter.j);
-	uint32_t state = pairs_get(&engine->pairs, i, entry), passed = inwards ? state + 1 : state - 1;
+	uint32_t state = state_of(engine, i, entry), passed = inwards ? state + 1 : state - 1;
 	const struct step *step = &potential->step[inwards ? state : state - 1];
 	num climb = inwards ? step->climb : negated(step->climb), rv = encounter.rv;
 	bool passes = climbs(climb, encounter.rr, rv);
