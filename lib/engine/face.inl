@@ -164,6 +164,15 @@ static void explain_states(const struct touchstone_engine *engine, void (*line)(
 				 (unsigned long long)engine->pairs.count, (double)pairs_memory(&engine->pairs) / engine->count);
 		line(context, text);
 	}
+	if (engine->neighbours.skin > 0) {
+		snprintf(text, sizeof text,
+				 "neighbour lists: pairs within %.3g of contact or of a step are asked, %.3g of them per particle; "
+				 "made anew "
+				 "when it has gone %.3g",
+				 engine->neighbours.skin, 2 * (double)engine->neighbours.pairs.count / engine->count,
+				 engine->neighbours.free);
+		line(context, text);
+	}
 	if (engine->last_met) line(context, "last partners: one per particle, since the method knows who has just met");
 	if (engine->cells.entry)
 		line(context,
