@@ -1,6 +1,5 @@
 # The live page: the library without MPFR, its cases and the page's engine, compiled for the web.
-LIVE     := convection discs bouncing-ball column cradle three-body \
-	$(addprefix stress/,near-collapse cradle column grazing)
+LIVE     := cases/convection.yaml $(filter-out cases/convection.yaml,$(wildcard cases/*.yaml)) $(wildcard cases/stress/*.yaml)
 web       = $(patsubst %.c,$(BUILD)/web/%.o,$(1))
 WEB      := $(call web,lib/arithmetic.c $(wildcard lib/engine/*.c lib/overlap/*.c lib/scene/*.c) \
 	$(patsubst %,lib/unit/%.c,short binary32 binary64 twin) verify/measure/three_body.c $(filter-out %/recipes.c,$(wildcard verify/live/*.c)))
@@ -31,7 +30,7 @@ $(BUILD)/web/%.o: %.c
 		-MMD -MP -c -o $@ $<
 
 $(BUILD)/web/verify/live/live.o: $(BUILD)/web/recipes.inl
-$(BUILD)/web/recipes.inl: $(BUILD)/web/recipes $(patsubst %,cases/%.yaml,$(LIVE))
+$(BUILD)/web/recipes.inl: $(BUILD)/web/recipes $(LIVE)
 	$(call say,write $@) $< $(filter %.yaml,$^) >$@.aside && mv $@.aside $@
 
 $(BUILD)/web/recipes: verify/live/recipes.c $(BUILD)/parts.a $(BUILD)/libtouchstone.a
