@@ -81,7 +81,7 @@ function go({ span, most }) {
 	let arrived = true, reached = most < Infinity;
 	for (let p = 0; p < panes; p++) {
 		arrived = advance(p, until + span, most, deadline + p * budget) && arrived;
-		reached = reached && ran[p].events >= most;
+		reached = reached && (ran[p].events >= most || engine.live_ended(p) === 1);
 	}
 	if (arrived) until += span;
 	picture(arrived, reached);

@@ -167,6 +167,14 @@ EXPORT(live_time) double live_time(int number)
 	return status.time;
 }
 
+/* Whether a run has come to an end of its own. */
+EXPORT(live_ended) bool live_ended(int number)
+{
+	struct touchstone_status status;
+	touchstone_status(panes[number].engine, &status);
+	return status.verdict != TOUCHSTONE_DONE;
+}
+
 static void see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
 {
 	struct pane *pane = context;
