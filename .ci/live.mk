@@ -5,7 +5,7 @@ WEB      := $(call web,lib/arithmetic.c $(wildcard lib/engine/*.c lib/overlap/*.
 	$(patsubst %,lib/unit/%.c,short binary32 binary64 twin) verify/measure/three_body.c $(filter-out %/recipes.c,$(wildcard verify/live/*.c)))
 WEBFLAGS := --target=wasm32-wasi -msimd128 -std=gnu17 -O3 $(WARNINGS) -ffp-contract=off -fno-math-errno
 
-.PHONY: live live-test
+.PHONY: live live-test live-frames
 live:
 	@.ci/setup live
 	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/live.html
@@ -15,7 +15,12 @@ live:
 live-test: $(BUILD)/live.html $(BUILD)/touchstone $(BUILD)/page_check
 	@if $(BUILD)/page_check $(BUILD)/touchstone $(BUILD)/live.html; then :; else told=$$?; [ $$told = 77 ] || exit $$told; fi
 
-$(BUILD)/page_check: $(wildcard verify/live/test/*.c) verify/live/test/browser.h
+# How fast it draws, here and now: ROUNDS=3 of a minute each.
+ROUNDS   := 3
+live-frames: $(BUILD)/live.html $(BUILD)/page_frames
+	@$(BUILD)/page_frames $< $(ROUNDS)
+
+$(BUILD)/page_check $(BUILD)/page_frames: $(BUILD)/page_%: verify/live/test/page_%.c verify/live/test/browser.c verify/live/test/browser.h
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c,$^) -lcmocka -lcurl -ljansson
 
 $(BUILD)/live.html: $(BUILD)/live.wasm reports/live/assemble $(wildcard reports/live/*.*)

@@ -1,5 +1,5 @@
 // What is drawn over the discs: walls, rings half as wide as a step is far, lines between captured pairs.
-const mostRings = 2000;
+const mostCovered = 2; // by rings, of the picture's area: where there are more of them none is told from another
 
 function drawWall(context, scale, world, [x, y, nx, ny]) {
 	const corners = [[-1, -1], [1, -1], [-1, 1], [1, 1]].map(([a, b]) =>
@@ -42,7 +42,7 @@ function drawLines(context, scale, world, lines) {
 }
 
 // Draws them on a canvas of their own, of the same size; what has none pays for none.
-function drawMarks(canvas, below, world, walls, ring, { discs, lines }) {
+function drawMarks(canvas, below, world, walls, ring, { discs, lines, counts }) {
 	canvas.hidden = !walls.length && !ring;
 	if (canvas.hidden) return;
 	const key = [world.x, world.y, world.width, below.width, below.height, palette().soft].join();
@@ -54,6 +54,7 @@ function drawMarks(canvas, below, world, walls, ring, { discs, lines }) {
 	context.strokeStyle = context.fillStyle = `rgb(${palette().soft})`;
 	context.lineWidth = Math.max(1, window.devicePixelRatio || 1);
 	for (const wall of walls) drawWall(context, scale, world, wall);
-	if (ring && discs.length <= mostRings * floatsPerDisc) drawRings(context, scale, world, discs, ring);
+	const covered = counts.particles * Math.PI * ring ** 2 / (world.width * world.height);
+	if (ring && covered < mostCovered) drawRings(context, scale, world, discs, ring);
 	drawLines(context, scale, world, lines);
 }

@@ -115,6 +115,6 @@ function lookOf(scene, ring) {
 	if (scene.dimensions === 3)
 		words.push("Three dimensions, seen along the third: nearer spheres cover those behind them, which fade; overlaps are drawn on top.");
 	if (scene.follows) words.push("There is no box: the picture follows the particles.");
-	if (ring) words.push(`Rings touch where two are at the step (distance ${show(2 * ring)}). Captured pairs are joined, up to 1000 of them.`);
+	if (ring) words.push(`Rings (where they are not too many) touch where two are at the step, at a distance of ${show(2 * ring)}. Captured pairs are joined, up to 1000 of them.`);
 	return words.join(" ");
 }

@@ -77,7 +77,7 @@ static void live_page_is_linked_where_it_is(void **state)
 		linked = strstr(text, "<a class=\"watch\" href=\"../live.html?scene=gas&amp;method=naive\">watch it</a>");
 		assert_int_equal(linked, there);
 		assert_int_equal(strstr(text, "live.html") != NULL, there);
-		linked = strstr(text, "</a> <span class=\"unseen\">not live: &lt;it&gt;</span></td>");
+		linked = strstr(text, "</a> <span class=\"unseen\">not live: &lt;it&gt;</span>");
 		assert_int_equal(linked, there);
 		assert_non_null(strstr(text, "<a href=\"shown.html#cell-told\">&lt;halts&gt;</a>"));
 		assert_non_null(strstr(

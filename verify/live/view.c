@@ -37,6 +37,7 @@ bool view_begin(struct view *view, const struct touchstone_scene *scene, const b
 	*view = (struct view){
 		.scene = scene,
 		.upright = scene->dimensions == 1 && scene->acceleration[0] != 0,
+		.open = open[0] || open[1],
 		.room = 2 * scene->particle_count,
 	};
 	for (int axis = 0; axis < scene->dimensions; axis++) view->origin[axis] = open[axis] ? middle(scene, axis) : 0;
@@ -105,10 +106,11 @@ static void widen(double bounds[4], const double at[2], double around)
 	}
 }
 
-/* Widens them by the feet of a particle on walls: the ground it falls to is to be seen. */
-static void widen_by_feet(struct view *view, const double at[2])
+/* Widens them by a particle and by its feet on walls: the ground it falls to is to be seen. */
+static void widen_by_all(struct view *view, const double at[2], double radius)
 {
 	double wall[4];
+	widen(view->bounds, at, radius);
 	for (size_t w = 0; w < view->scene->wall_count; w++) {
 		if (!view_wall(view, w, wall)) continue;
 		double above = (at[0] - wall[0]) * wall[2] + (at[1] - wall[1]) * wall[3];
@@ -155,8 +157,7 @@ bool view_discs(struct view *view, const float *warmth, const float *depth)
 		const struct touchstone_particle *particle = &scene->particles[p];
 		double at[2], radius = scene->species[particle->species].diameter / 2;
 		place(view, particle->position, at);
-		widen(view->bounds, at, radius);
-		if (scene->particle_count <= VIEW_MOST_JOINED) widen_by_feet(view, at);
+		if (view->open) widen_by_all(view, at, radius);
 		bool marked = depth[p] > 0;
 		if (spheres && !marked) room = add(view, at, radius, warmth[p], 0, 1);
 		room = room && add(view, at, spheres && !marked ? face * radius : radius, warmth[p], depth[p],

@@ -16,9 +16,10 @@ enum { VIEW_PER_DISC = 6, VIEW_PER_LINE = 4, VIEW_MOST_JOINED = 1000 };
 
 struct view {
 	const struct touchstone_scene *scene; /* its particles are where they are to be drawn */
-	bool upright;
-	double origin[3];   /* where the particles are at first, on axes without a box; else the box's middle */
-	double bounds[4];   /* least and largest x, least and largest y of all that is finite, and of the walls near it */
+	bool upright, open;                   /* open: there is no box to be looked into */
+	double origin[3]; /* where the particles are at first, on axes without a box; else the box's middle */
+	double bounds[4]; /* where it is open: least and largest x, least and largest y of all that is finite, and of walls
+						 near it */
 	size_t discs, room; /* how many are to be drawn, and for how many there is room */
 	float *disc;
 	size_t lines;
@@ -26,7 +27,7 @@ struct view {
 	struct view_place *order; /* in which particles are drawn */
 };
 
-/* Begins the view of a scene, on whose axes `open` there is no box to be looked into. The scene must outlive it; end it
+/* Begins the view of a scene, on whose axes `open` there is no box. The scene must outlive it; end it
  * with view_end. False when there is no memory. */
 bool view_begin(struct view *view, const struct touchstone_scene *scene, const bool open[3]);
 void view_end(struct view *view);
