@@ -12,15 +12,17 @@ live:
 	@echo "built $(BUILD)/live.html ($$(du -k $(BUILD)/live.html | cut -f1) kB): open it in a browser"
 
 # The page in a browser without a window; where there is none it is skipped, which is said.
-live-test: $(BUILD)/live.html $(BUILD)/touchstone $(BUILD)/page_check
-	@if $(BUILD)/page_check $(BUILD)/touchstone $(BUILD)/live.html; then :; else told=$$?; [ $$told = 77 ] || exit $$told; fi
+live-test: $(BUILD)/live.html $(BUILD)/touchstone $(BUILD)/page_check $(BUILD)/page_scenes
+	@for test in $(BUILD)/page_check $(BUILD)/page_scenes; do \
+		if $$test $(BUILD)/touchstone $(BUILD)/live.html; then :; else told=$$?; [ $$told = 77 ] || exit $$told; fi; done
 
 # How fast it draws, here and now: ROUNDS=3 of a minute each.
 ROUNDS   := 3
 live-frames: $(BUILD)/live.html $(BUILD)/page_frames
 	@$(BUILD)/page_frames $< $(ROUNDS)
 
-$(BUILD)/page_check $(BUILD)/page_frames: $(BUILD)/page_%: verify/live/test/page_%.c verify/live/test/browser.c verify/live/test/browser.h
+$(BUILD)/page_check $(BUILD)/page_scenes: verify/live/test/page.c
+$(BUILD)/page_%: verify/live/test/page_%.c verify/live/test/browser.c $(wildcard verify/live/test/*.h)
 	$(call say,link $@) $(CC) $(CPPFLAGS) $(CFLAGS) $(LDFLAGS) -MF $@.d -o $@ $(filter %.c,$^) -lcmocka -lcurl -ljansson
 
 $(BUILD)/live.html: $(BUILD)/live.wasm reports/live/assemble $(wildcard reports/live/*.*)

@@ -29,6 +29,7 @@ static struct pane {
 	struct witness witness;
 	struct view view;
 	float *depth, *warmth; /* per particle */
+	double idle;           /* how long ago the last event was, when none is left */
 	double count[32];
 } panes[PANES];
 
@@ -167,12 +168,12 @@ EXPORT(live_time) double live_time(int number)
 	return status.time;
 }
 
-/* Whether a run has come to an end of its own. */
+/* Whether a run has come to an end of its own: by a verdict, or because no event is left. */
 EXPORT(live_ended) bool live_ended(int number)
 {
 	struct touchstone_status status;
 	touchstone_status(panes[number].engine, &status);
-	return status.verdict != TOUCHSTONE_DONE;
+	return status.verdict != TOUCHSTONE_DONE || panes[number].idle > 0;
 }
 
 static void see(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
@@ -182,14 +183,25 @@ static void see(void *context, struct touchstone_engine *engine, const struct to
 	if (panes[1].engine) sequence_enter(&sequence, pane == &panes[1], event);
 }
 
+/* The time that has passed without an event where none is left: a clock that stays behind by more than the rounding of
+ * the time it was to reach. */
+static double idle_time(const struct touchstone_status *status, double time)
+{
+	double behind = time - status->time;
+	bool over = status->verdict == TOUCHSTONE_DONE && isfinite(time) && behind > ldexp(fabs(time), 2 - status->bits);
+	return over ? behind : 0;
+}
+
 /* Runs to a time, `most` events at most. Returns how many events there have been in all. */
 EXPORT(live_run) double live_run(int number, double time, double most)
 {
 	struct pane *pane = &panes[number];
 	struct touchstone_observer observer = {see, pane};
+	struct touchstone_status before, status;
+	touchstone_status(pane->engine, &before);
 	touchstone_run(pane->engine, &(struct touchstone_limits){(uint64_t)most, time, NULL}, &observer);
-	struct touchstone_status status;
 	touchstone_status(pane->engine, &status);
+	pane->idle = status.events < before.events + (uint64_t)most ? idle_time(&status, time) : 0;
 	if (status.verdict == TOUCHSTONE_HALTED || status.verdict == TOUCHSTONE_DIVERGED) {
 		witness_stop(&pane->witness, status.time);
 		if (panes[1].engine) sequence_end(&sequence, pane == &panes[1]);
@@ -204,6 +216,17 @@ struct sums {
 	double energy, momentum[3], squares; /* of speeds */
 };
 
+/* Where no event is left and nothing bounds the flight, everything flies on. */
+static void fly_on(const struct pane *pane, struct touchstone_particle *particle)
+{
+	if (!pane->view.open) return;
+	for (int axis = 0; axis < pane->scene.dimensions; axis++) {
+		double gained = pane->scene.acceleration[axis] * pane->idle;
+		particle->position[axis] += (particle->velocity[axis] + gained / 2) * pane->idle;
+		particle->velocity[axis] += gained;
+	}
+}
+
 /* Where everything is, and the sums over it. */
 static struct sums look(struct pane *pane)
 {
@@ -211,6 +234,7 @@ static struct sums look(struct pane *pane)
 	for (uint32_t p = 0; p < pane->scene.particle_count; p++) {
 		struct touchstone_particle *particle = &pane->now[p];
 		touchstone_state(pane->engine, p, particle->position, particle->velocity);
+		if (pane->idle > 0) fly_on(pane, particle);
 		double mass = pane->scene.species[particle->species].mass;
 		for (int axis = 0; axis < pane->scene.dimensions; axis++) {
 			double speed = particle->velocity[axis];
@@ -245,13 +269,13 @@ EXPORT(live_look) bool live_look(int number)
 	touchstone_status(pane->engine, &status);
 	struct witness *witness = &pane->witness;
 	warm(pane, sums.squares);
-	if (!witness_look(witness, &pane->scene, status.time, pane->depth) ||
+	if (!witness_look(witness, &pane->scene, status.time + pane->idle, pane->depth) ||
 		!view_discs(&pane->view, pane->warmth, pane->depth) || !view_lines(&pane->view, pane->engine))
 		return false;
 	const double counts[] = {
 		(double)status.events,
 		(double)status.collisions,
-		status.time,
+		status.time + pane->idle,
 		sums.energy + status.potential_energy,
 		sums.momentum[0],
 		sums.momentum[1],

@@ -9,7 +9,7 @@ struct view_place {
 	uint32_t particle;
 };
 
-static const double farthest_fade = 0.7, face = 0.86; /* of a sphere at the back; of the sphere within its rim */
+static const double farthest_fade = 0.7, face = 0.92; /* of a sphere at the back; of the sphere within its rim */
 static const double halo = 1.6;                       /* radius around one that is inside another: disc.vert */
 
 /* ------------------------------------------------------------------ from space to the plane */
