@@ -40,7 +40,7 @@ function showControls() {
 	at("nitems").value = s.nitems;
 	at("nitems").disabled = s.scene.given;
 	at("length").value = s.length;
-	at("length").disabled = s.scene.dimensions !== 2 || s.scene.given;
+	at("length").closest("label").hidden = s.scene.dimensions !== 2 || s.scene.given;
 	at("seed").value = s.seed;
 	at("speed").value = s.speed;
 	showSpeed();
