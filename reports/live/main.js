@@ -84,7 +84,8 @@ function start(query) {
 	at("pane-1").hidden = settings.panes.length < 2;
 	at("heat").textContent = settings.scene.name === "convection" ? "cold to hot" : "slow to fast";
 	layOutCounts(settings.panes, settings.scene);
-	started = false;
+	started = fresh = false;
+	latest = null;
 	busy = true;
 	pace.restart();
 	const { panes, index, width, height, nitems, seed } = settings;
@@ -121,6 +122,7 @@ function begun(message) {
 }
 
 function picture(message) {
+	if (!started) return; // of the run before
 	busy = false;
 	latest = message;
 	fresh = true;
@@ -132,14 +134,18 @@ function picture(message) {
 	at("pace").textContent = message.arrived ? "" : "slower than asked: the engine takes longer than a picture";
 }
 
-function showPicture(now) {
-	fresh = false;
+function drawViews() {
 	latest.views.forEach((view, p) => {
 		const canvas = at(`canvas-${p}`);
 		draw[p] ||= drawer(canvas, settings.draw);
 		draw[p](view.discs, world);
 		drawMarks(at(`marks-${p}`), canvas, world, walls, ring, view);
 	});
+}
+
+function showPicture(now) {
+	fresh = false;
+	drawViews();
 	if (playing && now - shownCounts < 150) return;
 	shownCounts = now;
 	writeCaptions(latest.views);
@@ -198,7 +204,7 @@ function listen() {
 		event.preventDefault();
 		key();
 	});
-	[0, 1].forEach(p => fit(at(`canvas-${p}`), () => fresh = latest !== null && started));
+	[0, 1].forEach(p => fit(at(`canvas-${p}`), () => latest && drawViews())); // at once, for a new size is blank
 	matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => fresh = latest !== null);
 }
 

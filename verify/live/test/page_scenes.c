@@ -35,7 +35,7 @@ static void every_scene_runs(void **state)
 		char query[200];
 		snprintf(query, sizeof query, "?scene=%s&length=30&aspect-ratio=1&rate=0.5&draw=2d&speed=2", scene);
 		page_show(query);
-		page_wait_for("document.getElementById('events-0').textContent !== '0'");
+		page_wait_for("parseInt(document.getElementById('events-0').textContent) > 0");
 		assert_true(page_holds("(canvas => new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, "
 							   "canvas.height).data.buffer).some((pixel, k, all) => pixel !== all[0]))"
 							   "(document.getElementById('canvas-0'))"));
@@ -144,7 +144,7 @@ static void every_method_runs(void **state)
 		snprintf(query, sizeof query,
 				 "?scene=convection&length=30&aspect-ratio=1&nitems=100&draw=2d&method=%s&against=%s", left, right);
 		page_show(query);
-		page_wait_for("['events-0', 'events-1'].every(id => document.getElementById(id).textContent !== '0')");
+		page_wait_for("['events-0', 'events-1'].every(id => parseInt(document.getElementById(id).textContent) > 0)");
 		snprintf(caption, sizeof caption,
 				 "document.getElementById('caption-0').textContent.startsWith('%s in binary64') && "
 				 "document.getElementById('caption-1').textContent.startsWith('%s in binary64')",
