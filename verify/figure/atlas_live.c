@@ -19,11 +19,11 @@ bool atlas_live(const struct atlas *atlas, int method, int scene, char query[300
 	char arithmetic[16], until[60] = "";
 	*unseen = '\0';
 	if (strcmp(name, "rounded") == 0) {
-		snprintf(unseen, 80, "not live: it needs GMP, which the page has not");
+		snprintf(unseen, 80, "not live: it needs GMP");
 		return false;
 	}
 	if (atlas_bits(rung) > 25 && rung != ATLAS_BINARY64) {
-		snprintf(unseen, 80, "in binary64: the page has not %s", atlas_arithmetic(rung, arithmetic));
+		snprintf(unseen, 80, "live in binary64, not %s", atlas_arithmetic(rung, arithmetic));
 		rung = ATLAS_BINARY64;
 	}
 	const struct failure *failure = rung == atlas_shown(cell) ? atlas_failure_shown(cell) : &cell->failure;
