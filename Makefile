@@ -9,7 +9,8 @@
 #   make valgrind          test programs under valgrind's memcheck, MEMCHECK=900 seconds in all, MEMCHECK_EACH=60 at most
 #   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++
 #   make CC=clang          another compiler               make BUILD=build/other   another place
-#   make live              the convection scene in a browser: build/live.html, one file; make live-test drives it in Chromium
+#   make live              the scenes in a browser: build/live.html, one file; make live-test drives it in Chromium,
+#                          make live-frames tells how fast it draws
 #   make clean, make format
 
 VERSION  := 0.1
