@@ -150,6 +150,11 @@ static void bad_campaigns_have_a_line(void **state)
 	program_refused(program_run("campaign %s/small.yaml --shard 1/4 --json -", folder), "--json");
 	program_refused(program_run("merge one"), "nothing to merge");
 	program_refused(program_run("merge %s/out.pieces %s/bad.yaml", folder, folder), "bad.yaml: ");
+	folder_put(folder, "new.pieces", "");
+	struct said said = program_run("merge %s/out.pieces %s/new.pieces", folder, folder);
+	assert_int_equal(said.status, 2);
+	assert_non_null(strstr(said.err, "none of these stores has a first line yet"));
+	said_free(&said);
 	assert_int_equal(folder_count(folder, "out.pieces"), 0);
 }
 
@@ -182,6 +187,11 @@ static void contradictions_are_findings(void **state)
 	said = program_run("merge %s/c0.pieces %s/c1.pieces", folder, folder); /* one that has it keeps it */
 	assert_int_equal(said.status, 1);
 	assert_non_null(strstr(said.out, "3 pieces, 1 of them new"));
+	said_free(&said);
+	folder_put(folder, "new.pieces", ""); /* of a shard that was killed before it had written anything */
+	said = program_run("merge %s/d.pieces %s/new.pieces %s/c1.pieces", folder, folder, folder);
+	assert_int_equal(said.status, 0);
+	assert_non_null(strstr(said.out, "2 pieces, 2 of them new"));
 	said_free(&said);
 }
 
