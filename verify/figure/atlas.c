@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "campaign/campaign.h"
 #include "command/cases.h"
+#include "figure/figure_campaign.h"
 #include "store/scene_identity.h"
 
 static const int ladder[ATLAS_RUNGS] = {4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18,
@@ -154,14 +154,7 @@ bool atlas_measure(struct atlas *atlas, char error[512])
 	const struct figure_setup *setup = atlas->setup;
 	const size_t pieces = (size_t)atlas->scenes * (size_t)atlas->methods;
 	const struct campaign campaign = {"atlas", pieces, piece_key, NULL, make_piece, atlas};
-	json_t *results = campaign_run(&campaign,
-								   &(struct campaign_setup){.folder = setup->folder,
-															.this_revision = true,
-															.threads = setup->threads,
-															.stop = setup->stop,
-															.progress = setup->progress,
-															.context = setup->context},
-								   error);
+	json_t *results = figure_campaign_run(&campaign, setup, error);
 	for (size_t p = 0; results && p < pieces; p++)
 		atlas->cell[p % (size_t)atlas->methods][p / (size_t)atlas->methods] = cell_of_json(json_array_get(results, p));
 	json_decref(results);
