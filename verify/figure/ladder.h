@@ -56,4 +56,7 @@ double ladder_reported(const struct ladder *ladder, int lane);
 struct result;
 void ladder_tables(struct result *result, const struct ladder *ladder);
 
+/* All that there is to tell: summary, claims, figures and those tables (ladder_figure.c). */
+void ladder_tell(struct result *result, const struct ladder *ladder);
+
 #endif

@@ -189,7 +189,7 @@ static void claim_inelastic(struct result *result, const struct ladder *ladder)
 						 });
 }
 
-static void tell(struct result *result, const struct ladder *ladder)
+void ladder_tell(struct result *result, const struct ladder *ladder)
 {
 	result_paragraph(result,
 					 "The same gases in arithmetics of 8 to 53 bits: %zu hard spheres in a periodic box, the stable "
@@ -224,7 +224,7 @@ struct result *figure_ladder(const struct figure_setup *setup, char error[512])
 		good = gas_points_measure("ladder", setup, ladder->point, LADDER_POINTS, ladder->tally, &stopped, error);
 	}
 	if (good) {
-		tell(result, ladder);
+		ladder_tell(result, ladder);
 		if (stopped) result_incomplete(result, "stopped before all rungs were measured; run again to go on");
 	}
 	free(ladder);
