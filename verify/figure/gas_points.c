@@ -44,7 +44,7 @@ static struct kept_setup piece_setup(const struct points *points, size_t piece)
 		.equilibrate = 20,
 		.settle = point->restitution < 1 ? 20 : 0,
 		.events = point->events * (part + 1) / pieces - point->events * part / pieces,
-		.starts = 8,
+		.starts = point->starts ? point->starts : 8,
 		.halvings = point->halvings ? point->halvings : 1,
 		.seed = points->setup->seed * 100000 + part,
 	};

@@ -3,9 +3,12 @@
 #include <math.h>
 #include <stdio.h>
 
+/* The gas at restitution 0.3 collapses, in binary64 after some 3 10^5 events of 500 spheres and sooner in coarser
+ * arithmetics (`reproduce ladder --full`, tables of the rungs), so that many of them follow one another. */
 static const struct {
 	double restitution, density;
-} gases[LADDER_LANES] = {{1, 0.1}, {1, 0.5}, {0.9, 0.5}, {0.5, 0.5}, {0.3, 0.5}, {1, 0.1}};
+	int starts;
+} gases[LADDER_LANES] = {{1, 0.1, 0}, {1, 0.5, 0}, {0.9, 0.5, 0}, {0.5, 0.5, 0}, {0.3, 0.5, 2000}, {1, 0.1, 0}};
 
 /* Events of a point. Full: dozens of three-body events or more on each rung down to 22 bits, and no rung more than ten
  * minutes of a core; but inelastic gases in binary64 are to show them directly, should they be as frequent as the paper
@@ -37,6 +40,7 @@ void ladder_choose(struct ladder *ladder, bool full)
 				.bits = rung->bits,
 				.particles = full ? 500 : 256,
 				.events = full ? rung->full : rung->quick,
+				.starts = gases[lane].starts,
 			};
 			if (full && r == LADDER_RUNGS - 1 && point->restitution < 1) point->events = inelastic_full;
 			if (!ladder_late(lane)) continue;
