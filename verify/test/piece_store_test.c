@@ -4,6 +4,7 @@
 
 #include "campaign/piece_store.h"
 #include "campaign_trial.h"
+#include "figure/figure_campaign.h"
 
 static const uint64_t seed = 19891128;
 
@@ -160,9 +161,8 @@ static void revisions_are_told_apart(void **state)
 	free(text);
 	struct campaign campaign = {"trial", PIECES, write_key, cost, make, &trial};
 	for (int this_revision = 0; this_revision < 2; this_revision++) {
-		json_decref(campaign_run(
-			&campaign, &(struct campaign_setup){.folder = folder, .threads = 1, .this_revision = this_revision},
-			error));
+		const struct figure_setup setup = {.folder = folder, .threads = 1, .any_revision = !this_revision};
+		json_decref(figure_campaign_run(&campaign, &setup, error));
 		assert_int_equal(trial.made, PIECES - 1 + this_revision);
 	}
 	forget();
