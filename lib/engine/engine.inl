@@ -71,6 +71,7 @@ extern const struct unit THIS_UNIT;
 
 #include "engine/neighbours.inl"
 
+#include "engine/residence.inl"
 #include "engine/search.inl"
 
 #include "engine/policy.inl"

@@ -1,13 +1,5 @@
 /* The event loop. */
 
-/* Enters a particle into its cell; false when memory ran out. */
-static bool enter_cell(struct touchstone_engine *engine, uint32_t i)
-{
-	if (cells_insert(&engine->cells, engine->itinerary[i].cell, i)) return true;
-	int count[3] = {engine->cells.count[0], engine->cells.count[1], engine->cells.count[2]};
-	return make_cells(engine, count, 2 * engine->cells.capacity);
-}
-
 /* A particle has gone far from its anchor: it gets another one, which may be in another cell and image of the box, and
  * looks at those that have come near. What it meant to do stands, as for one that has left its cell. */
 static void find_neighbours(struct touchstone_engine *engine, uint32_t i)
@@ -58,27 +50,18 @@ static void cross(struct touchstone_engine *engine, uint32_t i)
 		find_neighbours(engine, i);
 		return;
 	}
-	if (engine->accelerated) itinerary->entered = leaving_wait(engine, i, &face); /* a parabola may pass a face twice */
-	int axis = (itinerary->next - 1) / 2, side = (itinerary->next - 1) % 2 ? 1 : -1;
-	int cell = itinerary->cell[axis] + side, last = engine->cells.count[axis];
-	bool wraps = cell < 1 || cell > last;
-	cells_remove(&engine->cells, itinerary->cell, i);
-	if (wraps) {
-		cell -= side * last;
-		shift_image(engine, i, axis, -side);
-	}
-	itinerary->cell[axis] = (uint16_t)cell;
-	if (!enter_cell(engine, i)) {
-		out_of_memory(engine);
-		return;
-	}
+	double flight = engine->accelerated || engine->strays ? leaving_wait(engine, i, &face) : 0;
+	if (engine->accelerated) itinerary->entered = flight; /* a parabola may pass a face twice */
+	int step[3] = {0};
+	step[(itinerary->next - 1) / 2] = (itinerary->next - 1) % 2 ? 1 : -1;
+	if (engine->strays) may_step(engine, i, flight, step);
+	bool wraps = move_by(engine, i, step);
+	if (engine->verdict != TOUCHSTONE_DONE) return;
 	cast_shadow(engine, i);
-	if (wraps) { /* images are counted from here on: whoever knew the old one asks again */
-		engine->itinerary[i].changes++;
+	if (wraps)
 		predict(engine, i);
-	} else {
-		predict_beyond(engine, i, axis, side);
-	}
+	else
+		predict_entered(engine, i, step);
 	schedule(engine, i);
 }
 
@@ -131,6 +114,8 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 		meet_step(engine, i, partner, meets == TOUCHSTONE_CAPTURE);
 	for (int p = 0; p < particles; p++) {
 		engine->itinerary[met[p]].entered = 0;
+		int step[3] = {0};
+		if (engine->strays && may_step(engine, met[p], 0, step)) move_by(engine, met[p], step);
 		cast_shadow(engine, met[p]);
 	}
 	if (engine->last_met) remember_event(engine, met, particles);
