@@ -52,7 +52,8 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 		if (engine->search != TOUCHSTONE_ALL)
 			count[axis] = (int)fmin(fmax(floor(engine->box[axis] / side), 1), most_per_axis);
 		engine->cell_side[axis] = engine->box[axis] / count[axis];
-		engine->stray[axis] = fmax(0, (engine->cell_side[axis] - reach) / 2);
+		/* sides of virtual walls are told for particles in the box */
+		engine->stray[axis] = engine->side ? 0 : fmax(0, (engine->cell_side[axis] - reach) / 2);
 		engine->cells.count[axis] = count[axis];
 	}
 	double far = getenv("FAR") ? atof(getenv("FAR")) : 0.125; /* of a cell */
