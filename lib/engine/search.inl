@@ -157,7 +157,8 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
 		if (captures && engine->method->policy & POLICY_POSITIONAL)
 			for (int p = 0; p < particles; p++) read_all_again(engine, particle[p], list[p], candidates[p]);
-		if (captures && engine->executing && engine->tested) tell_tests(engine, particle, list, candidates, particles);
+		if (captures && engine->executing && engine->listener)
+			tell_tests(engine, particle, list, candidates, particles);
 		for (int p = 0; captures && p < particles; p++) consider_captured(engine, particle[p], &plan[p]);
 		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
 		for (int p = 0; captures && p < particles; p++)

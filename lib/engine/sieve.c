@@ -357,19 +357,21 @@ AVX512 static size_t hold_512(const struct sieve *sieve, const struct shadow *sh
 }
 #endif
 
+#include "engine/sieve_check.inl"
+
 const struct sieve_machine *sieve_machine(size_t number)
 {
-	static const struct sieve_machine any = {"portable", pass_any, hold_any, cast_any};
+	static const struct sieve_machine any = {"portable", pass_any, hold_any, check_any, cast_any};
 #ifdef __x86_64__
-	static const struct sieve_machine avx512 = {"AVX-512", pass_512, hold_512, cast_avx2},
-									  avx2 = {"AVX2", pass_avx2, hold_avx2, cast_avx2};
+	static const struct sieve_machine avx512 = {"AVX-512", pass_512, hold_512, check_512, cast_avx2},
+									  avx2 = {"AVX2", pass_avx2, hold_avx2, check_avx2, cast_avx2};
 	bool fair = __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 	bool fast = fair && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
 				__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
 	if (fast && number-- == 0) return &avx512;
 	if (fair && number-- == 0) return &avx2;
 #elif defined __wasm_simd128__
-	static const struct sieve_machine simd = {"WebAssembly SIMD", pass_128, hold_128, cast_any};
+	static const struct sieve_machine simd = {"WebAssembly SIMD", pass_128, hold_128, check_128, cast_any};
 	if (number-- == 0) return &simd;
 #endif
 	return number == 0 ? &any : NULL;

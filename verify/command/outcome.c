@@ -101,7 +101,9 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	limits.time += outcome->time_begun;
 	if (outcome->states) {
 		misreading_begin(&outcome->states->misreading, &simulation->scene, simulation->engine);
-		touchstone_observe_tests(simulation->engine, see_test, inconsistency_reach, outcome->states);
+		outcome->states->listener =
+			(struct touchstone_listener){see_test, outcome->states, inconsistency_reach, INFINITY, 0};
+		touchstone_observe_tests(simulation->engine, &outcome->states->listener);
 	}
 	const struct touchstone_observer *look = observed ? &observer : NULL;
 	if (plan->trace) limits.stop = interrupt_flag();

@@ -97,6 +97,7 @@ struct run_plan {
 struct states_outcome {
 	struct inconsistency inconsistency;
 	struct misreading misreading;
+	struct touchstone_listener listener; /* to tests, for both */
 };
 
 /* What became of one run. */

@@ -71,13 +71,12 @@ static void measure(const struct step_gas *gas, struct step_campaign *campaign, 
 	if (outcome->stopped) return;
 	outcome->begun = true;
 	struct touchstone_observer observer = {inconsistency_see, &outcome->inconsistency};
+	struct touchstone_listener listener = {misreading_test, &outcome->misreading, inconsistency_reach, INFINITY, 0};
 	if (gas->watched) {
 		misreading_begin(&outcome->misreading, scene, engine);
-		touchstone_observe_tests(engine, misreading_test, inconsistency_reach, &outcome->misreading);
 		observer = (struct touchstone_observer){misreading_see, &outcome->misreading};
-	} else {
-		touchstone_observe_tests(engine, inconsistency_test, inconsistency_reach, &outcome->inconsistency);
 	}
+	touchstone_observe_tests(engine, gas->watched ? &listener : &outcome->inconsistency.listener);
 	struct conservation begin = conservation_of(scene, engine);
 	double clock = clock_now();
 	outcome->stopped = !course_run(engine, &limits, &observer, &watch);

@@ -80,7 +80,8 @@ static void inconsistencies_are_counted(void **state)
 	if (!engine) fail_msg("%s", error);
 	struct both both = {0};
 	assert_true(inconsistency_begin(&both.measured, 12, PARTICLES));
-	touchstone_observe_tests(engine, hear, inconsistency_reach, &both);
+	struct touchstone_listener listener = {hear, &both, inconsistency_reach, INFINITY, 0};
+	touchstone_observe_tests(engine, &listener);
 	uint64_t events = brief ? 5000 : 40000;
 	touchstone_run(engine, &(struct touchstone_limits){events, INFINITY, NULL},
 				   &(struct touchstone_observer){see, &both});
@@ -89,7 +90,7 @@ static void inconsistencies_are_counted(void **state)
 	for (int kind = 0; kind < INCONSISTENCIES; kind++)
 		print_message(" %s %llu", inconsistency_name((enum inconsistency_kind)kind), (unsigned long long)count[kind]);
 	print_message("\n");
-	assert_true(both.measured.events == events && both.measured.tests == both.told);
+	assert_true(both.measured.events == events && listener.tests == both.told);
 	assert_true(count[INCONSISTENT_EXECUTED] == both.executed);
 	assert_true(count[INCONSISTENT_AFTER] + count[INCONSISTENT_LATER] + count[INCONSISTENT_OTHERS] == both.wrong);
 	for (int kind = 0; kind < INCONSISTENCIES; kind++) assert_true(count[kind] > 0 && count[kind] < events);
