@@ -37,7 +37,94 @@ static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t ent
 	engine->tested_offset = NULL;
 }
 
-/* The state of particle i and an entry, where partners it has captured are marked. */
+/* ------------------------------------------------------------------ what shadows say */
+
+/* Up to HELD entries of one particle, and the distances between which there is nothing to tell of them. */
+struct bounds {
+	uint32_t entry[HELD + 16];
+	float inner[HELD + 16], outer[HELD + 16];
+};
+
+/* Of `count` entries of particle i, writes the numbers of those that may not be within their bounds, in their order. */
+static size_t out_of_bounds(struct touchstone_engine *engine, uint32_t i, const uint32_t *entry,
+							const struct bounds *bounds, size_t count, uint32_t kept[HELD + 16])
+{
+	struct shadows *shadows = &engine->shadows;
+	struct held held = {entry, bounds->outer, bounds->inner};
+	shadows->sieve.images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
+	return shadows->machine->check(&shadows->sieve, shadows->shadow, i, &held, count, kept);
+}
+
+/* The farthest at which any pair counts that is in state 0, as shadows see it. */
+static float farthest_of(const struct touchstone_engine *engine)
+{
+	return (float)(engine->listener->reach * engine->reach * engine->shadows.per_length);
+}
+
+static void bound_all(struct bounds *bounds, float inner, float outer)
+{
+	for (int k = 0; k < HELD + 16; k++) bounds->inner[k] = inner, bounds->outer[k] = outer;
+}
+
+/* Whether all that particle i has captured is surely so near, as it will be unless the method misses events. */
+static bool keeps_captured(struct touchstone_engine *engine, uint32_t i, float farthest)
+{
+	uint32_t kept[HELD + 16], count, some;
+	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
+	struct bounds bounds;
+	bool keeps = true;
+	if (count) bound_all(&bounds, 0, farthest);
+	for (; count && keeps; captured += some, count -= some) {
+		some = count < HELD ? count : HELD;
+		for (uint32_t k = 0; k < some + 16; k++) bounds.entry[k] = captured[k < some ? k : 0].entry;
+		keeps = !out_of_bounds(engine, i, bounds.entry, &bounds, some, kept);
+	}
+	return keeps;
+}
+
+/* ------------------------------------------------------------------ the tests after an event */
+
+/* Some of those that particle i is tested against. */
+struct tests {
+	uint32_t count, state[HELD];
+	struct bounds bounds;
+};
+
+static inline void add_test(const struct touchstone_engine *engine, uint32_t i, uint32_t entry, uint32_t state,
+							struct tests *tests)
+{
+	const struct potential *potential = potential_between(engine, i, entry_particle(entry));
+	if (!potential || !potential->step_count) return;
+	double margin = engine->listener->margin, unit = engine->shadows.per_length, inner = 0, outer = INFINITY;
+	if (state < potential->step_count)
+		inner = to_double(potential->step[state].distance) * (state ? 1 + margin : engine->listener->reach) * unit;
+	if (state) outer = margin < 1 ? to_double(potential->step[state - 1].distance) * (1 - margin) * unit : 0;
+	uint32_t k = tests->count++;
+	tests->state[k] = state;
+	tests->bounds.entry[k] = entry;
+	tests->bounds.inner[k] = (float)inner;
+	tests->bounds.outer[k] = (float)outer;
+}
+
+/* Tells what there is to tell of them, and counts the others that are in a state. */
+static void tell_some(struct touchstone_engine *engine, uint32_t i, struct tests *tests)
+{
+	uint32_t kept[HELD + 16], count = tests->count;
+	size_t left = count, at = 0;
+	tests->count = 0;
+	if (!count) return;
+	for (uint32_t k = 0; k < count; k++) kept[k] = k;
+	for (uint32_t k = count; k < count + 16; k++)
+		tests->bounds.entry[k] = i, tests->bounds.inner[k] = tests->bounds.outer[k] = 1;
+	if (engine->shadows.shadow) left = out_of_bounds(engine, i, tests->bounds.entry, &tests->bounds, count, kept);
+	for (uint32_t k = 0; k < count; k++)
+		if (at < left && kept[at] == k)
+			tell_test(engine, i, tests->bounds.entry[k], tests->state[k]), at++;
+		else
+			engine->listener->tests += tests->state[k] > 0;
+}
+
+/* The state of particle i and an entry, while the partners it has captured are marked. */
 static inline uint32_t marked_state(const struct touchstone_engine *engine, uint32_t i, uint32_t entry,
 									const struct pair_state *captured)
 {
@@ -46,71 +133,39 @@ static inline uint32_t marked_state(const struct touchstone_engine *engine, uint
 	return captured[mark - 1].entry == entry ? captured[mark - 1].state : pairs_get(&engine->pairs, i, entry);
 }
 
-/* Up to HELD entries of particle i, each with its state and the distances between which there is nothing to tell. */
-struct tests {
-	uint32_t count, entry[HELD + 16], state[HELD];
-	float inner[HELD + 16], outer[HELD + 16];
-};
-
-static inline void add_test(const struct touchstone_engine *engine, uint32_t i, uint32_t entry, uint32_t state,
-							struct tests *tests)
+/* Tells of what particle i is tested against, but for another that has been told of. */
+static void tell_tests_of(struct touchstone_engine *engine, uint32_t i, const uint32_t *list, size_t candidates,
+						  uint32_t but)
 {
-	const struct touchstone_listener *listener = engine->listener;
-	const struct potential *potential = potential_between(engine, i, entry_particle(entry));
-	if (!potential || !potential->step_count) return;
-	double unit = engine->shadows.per_length, farther = state ? 1 + listener->margin : listener->reach;
-	uint32_t k = tests->count++;
-	tests->entry[k] = entry;
-	tests->state[k] = state;
-	tests->inner[k] = 0;
-	tests->outer[k] = INFINITY;
-	if (state < potential->step_count)
-		tests->inner[k] = (float)(to_double(potential->step[state].distance) * farther * unit);
-	if (state)
-		tests->outer[k] =
-			(float)(to_double(potential->step[state - 1].distance) * fmax(0, 1 - listener->margin) * unit);
-}
-
-/* Of these, tells what there is to tell. */
-static void tell_some(struct touchstone_engine *engine, uint32_t i, struct tests *tests)
-{
-	struct shadows *shadows = &engine->shadows;
-	uint32_t kept[HELD + 16], count = tests->count, at = 0;
-	size_t left = count;
-	for (uint32_t k = 0; k < count; k++) kept[k] = k;
-	if (shadows->shadow) {
-		for (uint32_t k = count; k < count + 16; k++) tests->entry[k] = i, tests->inner[k] = tests->outer[k] = 1;
-		struct held held = {tests->entry, tests->outer, tests->inner};
-		shadows->sieve.images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
-		left = shadows->machine->check(&shadows->sieve, shadows->shadow, i, &held, count, kept);
+	uint32_t kept[HELD + 16], count;
+	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
+	float farthest = farthest_of(engine);
+	bool shadowed = engine->shadows.shadow && keeps_captured(engine, i, farthest);
+	struct bounds far;
+	struct tests tests;
+	tests.count = 0;
+	bound_all(&far, farthest, INFINITY);
+	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = (uint16_t)(k + 1);
+	for (size_t some; candidates; list += some, candidates -= some) {
+		some = candidates < HELD ? candidates : HELD;
+		size_t near = shadowed ? out_of_bounds(engine, i, list, &far, some, kept) : some;
+		for (size_t k = 0; k < near; k++) {
+			uint32_t entry = list[shadowed ? kept[k] : k];
+			if (entry_particle(entry) == but) continue;
+			add_test(engine, i, entry, marked_state(engine, i, entry, captured), &tests);
+			if (tests.count == HELD) tell_some(engine, i, &tests);
+		}
 	}
-	for (size_t k = 0; k < left; k++) tell_test(engine, i, tests->entry[kept[k]], tests->state[kept[k]]);
-	for (uint32_t k = 0; k < count; k++) {
-		bool told = at < left && kept[at] == k;
-		at += told;
-		engine->listener->tests += !told && tests->state[k];
-	}
-	tests->count = 0;
+	tell_some(engine, i, &tests);
+	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = 0;
 }
 
 /* Tells of all that the particles of an event may meet next: each pair once. */
 static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
 					   const size_t candidates[2], int particles)
 {
-	struct tests tests = {.count = 0};
-	for (int p = 0; p < particles; p++) {
-		uint32_t i = particle[p], count;
-		const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
-		for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = (uint16_t)(k + 1);
-		for (size_t k = 0; k < candidates[p]; k++) {
-			uint32_t entry = list[p][k];
-			if (p == 1 && entry_particle(entry) == particle[0]) continue;
-			add_test(engine, i, entry, marked_state(engine, i, entry, captured), &tests);
-			if (tests.count == HELD) tell_some(engine, i, &tests);
-		}
-		tell_some(engine, i, &tests);
-		for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = 0;
-	}
+	tell_tests_of(engine, particle[0], list[0], candidates[0], particle[0]);
+	if (particles > 1) tell_tests_of(engine, particle[1], list[1], candidates[1], particle[0]);
 }
 
 /* The offset at hand as exact sums of doubles, filled with zeros; returns how many there are per axis. */
