@@ -106,7 +106,7 @@ static void inconsistencies_are_counted(void **state)
 
 /* ------------------------------------------------------------------ the watcher */
 
-static struct step_gas_outcome watch(const char *method, const char *arithmetic, bool shoulder)
+static struct step_gas_outcome watched(const char *method, const char *arithmetic, bool shoulder)
 {
 	const struct step_gas gas = {.shoulder = shoulder,
 								 .particles = 500,
@@ -115,10 +115,8 @@ static struct step_gas_outcome watch(const char *method, const char *arithmetic,
 								 .method = method,
 								 .events = 5000,
 								 .watched = true};
-	struct figure_setup setup = {.seed = 1, .threads = 1};
-	struct step_campaign campaign = {.setup = &setup, .all = gas.events};
 	struct step_gas_outcome outcome;
-	step_gas_run(&gas, &campaign, &outcome);
+	step_gas_run(&gas, 1, NULL, &(struct watch){0}, &outcome);
 	if (*outcome.error) fail_msg("%s", outcome.error);
 	assert_true(outcome.begun && !outcome.stopped && !outcome.misreading.exhausted);
 	assert_true(outcome.misreading.events == outcome.end.events);
@@ -131,7 +129,7 @@ static void tracked_states_are_never_misread(void **state)
 	static const char *const arithmetics[] = {"short:16", "binary64"};
 	for (int a = 0; a < 2; a++)
 		for (int shoulder = 0; shoulder < 2; shoulder++) {
-			struct step_gas_outcome outcome = watch("stable", arithmetics[a], shoulder);
+			struct step_gas_outcome outcome = watched("stable", arithmetics[a], shoulder);
 			assert_true(outcome.misreading.repeats == 0 && outcome.misreading.misses == 0);
 			assert_true(outcome.misreading.energy == 0 && outcome.misreading.stuck.event == 0);
 			if (a == 1) assert_true(fabs(outcome.energy_drift) < 1e-13);
@@ -143,7 +141,7 @@ static void tracked_states_are_never_misread(void **state)
 static void positional_is_stuck(void **state)
 {
 	(void)state;
-	struct step_gas_outcome outcome = watch("positional", "binary64", true);
+	struct step_gas_outcome outcome = watched("positional", "binary64", true);
 	const struct misreading *misreading = &outcome.misreading;
 	char text[200];
 	print_message("%s\n", misreading_tell(&misreading->repeated, text));
@@ -162,7 +160,7 @@ static void corrections_fail_by_third_particles(void **state)
 	(void)state;
 	static const char *const methods[] = {"stretch", "nudge", "last-event"};
 	for (int m = 0; m < 3; m++) {
-		struct step_gas_outcome outcome = watch(methods[m], "short:16", false);
+		struct step_gas_outcome outcome = watched(methods[m], "short:16", false);
 		char text[200];
 		print_message("%s: %s\n", methods[m], misreading_tell(&outcome.misreading.missed, text));
 		assert_true(outcome.misreading.misses > 0);
@@ -181,7 +179,7 @@ static void commands_show_the_same(void **state)
 								 .method = "positional",
 								 .events = 5000,
 								 .watched = true};
-	struct step_gas_outcome outcome = watch(gas.method, gas.arithmetic, gas.shoulder);
+	struct step_gas_outcome outcome = watched(gas.method, gas.arithmetic, gas.shoulder);
 	char command[320], text[200];
 	step_gas_command(&gas, 1, command);
 	assert_true(strncmp(command, "touchstone ", 11) == 0);
