@@ -195,6 +195,64 @@ static void commands_show_the_same(void **state)
 	said_free(&said);
 }
 
+/* ------------------------------------------------------------------ what is kept of a gas under way */
+
+/* Asks for an end after so many events, those before a checkpoint included. */
+struct impatient {
+	uint64_t left;
+	int stop;
+};
+
+static void grow_impatient(void *context, uint64_t more, const struct touchstone_status *now)
+{
+	(void)now;
+	struct impatient *impatient = context;
+	impatient->left -= more < impatient->left ? more : impatient->left;
+	impatient->stop = impatient->left == 0;
+}
+
+static bool file_exists(const char *path)
+{
+	return access(path, F_OK) == 0;
+}
+
+static void stopped_gases_go_on(void **state)
+{
+	(void)state;
+	const struct step_gas gas = {.particles = 500,
+								 .form = TOUCHSTONE_RELATIVE,
+								 .arithmetic = "short:14",
+								 .method = "stable",
+								 .equilibrate = 2,
+								 .events = 20000};
+	char *folder = folder_new(), path[60];
+	snprintf(path, sizeof path, "%s/gas.checkpoint", folder);
+	struct step_gas_outcome whole, parts;
+	step_gas_run(&gas, 7, NULL, &(struct watch){0}, &whole);
+	int calls = 0;
+	do {
+		struct impatient impatient = {.left = 6000 * (1 + (uint64_t)calls)};
+		const struct watch watch = {&impatient.stop, grow_impatient, &impatient};
+		step_gas_run(&gas, 7, path, &watch, &parts);
+		assert_true(!*parts.error && file_exists(path) == parts.stopped);
+		if (calls++ == 0) { /* another gas does not take it for its own */
+			struct step_gas_outcome other;
+			impatient = (struct impatient){.left = 1};
+			step_gas_run(&gas, 8, path, &watch, &other);
+			assert_true(other.inconsistency.events < parts.inconsistency.events && file_exists(path));
+		}
+	} while (parts.stopped && calls < 10);
+	print_message("%d calls, %llu inconsistencies by others\n", calls,
+				  (unsigned long long)whole.inconsistency.count[INCONSISTENT_OTHERS]);
+	assert_true(calls > 2);
+	assert_true(!parts.stopped && whole.inconsistency.count[INCONSISTENT_OTHERS] > 0);
+	assert_memory_equal(parts.inconsistency.count, whole.inconsistency.count, sizeof whole.inconsistency.count);
+	assert_true(parts.end.digest == whole.end.digest && parts.end.events == gas.events);
+	assert_true(parts.energy_drift == whole.energy_drift && parts.inconsistency.events == gas.events);
+	assert_int_equal(folder_count(folder, ""), 0);
+	folder_remove(folder);
+}
+
 int main(void)
 {
 	brief = getenv("TOUCHSTONE_BRIEF");
@@ -202,7 +260,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(inconsistencies_are_counted), cmocka_unit_test(tracked_states_are_never_misread),
 		cmocka_unit_test(positional_is_stuck),         cmocka_unit_test(corrections_fail_by_third_particles),
-		cmocka_unit_test(commands_show_the_same),
+		cmocka_unit_test(commands_show_the_same),      cmocka_unit_test(stopped_gases_go_on),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
