@@ -130,6 +130,13 @@ INLINE float latest_of(const struct sieve *sieve, float latest, lanes high, cons
 	return soonest < latest ? soonest : latest;
 }
 
+/* Which pairs are surely beyond what is heard. */
+INLINE flags unheard(const struct sieve *sieve, const struct others *o, lanes square, const struct steps *step)
+{
+	lanes farthest = square * (sieve->heard * sieve->heard);
+	return step->less(error_of_c(sieve, o, farthest), o->rr - farthest);
+}
+
 static const uint32_t all_lanes = (1u << LANES) - 1;
 
 INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, uint32_t *entry, size_t count,
@@ -145,10 +152,13 @@ INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint3
 		lanes q = error_of_c(sieve, &others, square), error_b = error_of_b(sieve, &others);
 		struct meeting meeting = meeting_of(&others, others.rr - square, q, error_b, &step);
 		flags out = ~step.less(number, zero + (float)(count - k)) | meeting.misses;
+		if (sieve->heard > 0)
+			out &= ~step.less(number, zero + (float)(count - k)) | unheard(sieve, &others, square, &step);
 		if (step.bits(out) == all_lanes) continue;
 		if (sieve->by_order) {
 			latest = latest_of(sieve, latest, pick(meeting.sure & ~out, meeting.high, never), &step);
-			out |= step.less(zero + latest, meeting.low);
+			flags late = step.less(zero + latest, meeting.low);
+			out |= sieve->heard > 0 ? late & unheard(sieve, &others, square, &step) : late;
 		}
 		kept += step.pack(~step.bits(out) & all_lanes, entry + k, entry + kept);
 	}

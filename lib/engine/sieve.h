@@ -43,6 +43,7 @@ struct sieve {
 	float roundoff; /* of the working arithmetic: n */
 	float drift;    /* error of its flights, as a time */
 	float latest;   /* meetings surely later are of no interest; INFINITY for none */
+	float heard;    /* pairs no farther apart than so many times their contact distance pass in any case; 0: none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
 	bool images;    /* whether any entry may be an image */
 };

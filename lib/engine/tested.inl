@@ -1,6 +1,6 @@
-/* What a listener is told: the pairs that a search after an event asks about. The sieve does not come into it, since it
- * leaves out pairs that part, whatever state they are in; but shadows do: those of which they say surely that they are
- * where their state has them, and not near a step, are counted and not worked out. */
+/* What a listener is told: the pairs that a search after an event asks about. For its sake the sieve lets all pass that
+ * are near enough, also those that part. And of these, pairs whose shadows say surely that they are where their state
+ * has them, and not near a step, are counted and not worked out. */
 
 /* Tells of one pair, if it counts and the listener wants to know. */
 static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t entry, uint32_t state)
@@ -55,31 +55,37 @@ static size_t out_of_bounds(struct touchstone_engine *engine, uint32_t i, const 
 	return shadows->machine->check(&shadows->sieve, shadows->shadow, i, &held, count, kept);
 }
 
-/* The farthest at which any pair counts that is in state 0, as shadows see it. */
-static float farthest_of(const struct touchstone_engine *engine)
-{
-	return (float)(engine->listener->reach * engine->reach * engine->shadows.per_length);
-}
-
-static void bound_all(struct bounds *bounds, float inner, float outer)
-{
-	for (int k = 0; k < HELD + 16; k++) bounds->inner[k] = inner, bounds->outer[k] = outer;
-}
-
-/* Whether all that particle i has captured is surely so near, as it will be unless the method misses events. */
-static bool keeps_captured(struct touchstone_engine *engine, uint32_t i, float farthest)
+/* Whether all that particle i has captured is surely so near that it counts by its distance alone, as it will be unless
+ * the method misses events. */
+static bool keeps_captured(struct touchstone_engine *engine, uint32_t i)
 {
 	uint32_t kept[HELD + 16], count, some;
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
 	struct bounds bounds;
 	bool keeps = true;
-	if (count) bound_all(&bounds, 0, farthest);
 	for (; count && keeps; captured += some, count -= some) {
 		some = count < HELD ? count : HELD;
-		for (uint32_t k = 0; k < some + 16; k++) bounds.entry[k] = captured[k < some ? k : 0].entry;
+		for (uint32_t k = 0; k < some + 16; k++) {
+			const struct potential *potential =
+				potential_between(engine, i, entry_particle(captured[k < some ? k : 0].entry));
+			double farthest = to_double(potential->step[0].distance) * engine->listener->reach;
+			bounds.entry[k] = captured[k < some ? k : 0].entry;
+			bounds.inner[k] = 0;
+			bounds.outer[k] = (float)(farthest * engine->shadows.per_length);
+		}
 		keeps = !out_of_bounds(engine, i, bounds.entry, &bounds, some, kept);
 	}
 	return keeps;
+}
+
+/* Whether the sieve will let everything pass that is to be told of these particles, and has been told to. */
+static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *particle, int particles)
+{
+	if (!engine->shadows.shadow) return false;
+	for (int p = 0; p < particles; p++)
+		if (!keeps_captured(engine, particle[p])) return false;
+	engine->shadows.sieve.heard = (float)(engine->listener->reach * (1 + 0x1p-20));
+	return true;
 }
 
 /* ------------------------------------------------------------------ the tests after an event */
@@ -137,24 +143,15 @@ static inline uint32_t marked_state(const struct touchstone_engine *engine, uint
 static void tell_tests_of(struct touchstone_engine *engine, uint32_t i, const uint32_t *list, size_t candidates,
 						  uint32_t but)
 {
-	uint32_t kept[HELD + 16], count;
+	uint32_t count;
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
-	float farthest = farthest_of(engine);
-	bool shadowed = engine->shadows.shadow && keeps_captured(engine, i, farthest);
-	struct bounds far;
 	struct tests tests;
 	tests.count = 0;
-	bound_all(&far, farthest, INFINITY);
 	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = (uint16_t)(k + 1);
-	for (size_t some; candidates; list += some, candidates -= some) {
-		some = candidates < HELD ? candidates : HELD;
-		size_t near = shadowed ? out_of_bounds(engine, i, list, &far, some, kept) : some;
-		for (size_t k = 0; k < near; k++) {
-			uint32_t entry = list[shadowed ? kept[k] : k];
-			if (entry_particle(entry) == but) continue;
-			add_test(engine, i, entry, marked_state(engine, i, entry, captured), &tests);
-			if (tests.count == HELD) tell_some(engine, i, &tests);
-		}
+	for (size_t k = 0; k < candidates; k++) {
+		if (entry_particle(list[k]) == but) continue;
+		add_test(engine, i, list[k], marked_state(engine, i, list[k], captured), &tests);
+		if (tests.count == HELD) tell_some(engine, i, &tests);
 	}
 	tell_some(engine, i, &tests);
 	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = 0;
