@@ -39,15 +39,17 @@ static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t ent
 
 /* ------------------------------------------------------------------ what shadows say */
 
-/* Up to HELD entries of one particle, and the distances between which there is nothing to tell of them. */
+enum { HEARD = 64 };
+
+/* Up to HEARD entries of one particle, and the distances between which there is nothing to tell of them. */
 struct bounds {
-	uint32_t entry[HELD + 16];
-	float inner[HELD + 16], outer[HELD + 16];
+	uint32_t entry[HEARD + 16];
+	float inner[HEARD + 16], outer[HEARD + 16];
 };
 
 /* Of `count` entries of particle i, writes the numbers of those that may not be within their bounds, in their order. */
 static size_t out_of_bounds(struct touchstone_engine *engine, uint32_t i, const uint32_t *entry,
-							const struct bounds *bounds, size_t count, uint32_t kept[HELD + 16])
+							const struct bounds *bounds, size_t count, uint32_t kept[HEARD + 16])
 {
 	struct shadows *shadows = &engine->shadows;
 	struct held held = {entry, bounds->outer, bounds->inner};
@@ -59,12 +61,12 @@ static size_t out_of_bounds(struct touchstone_engine *engine, uint32_t i, const 
  * the method misses events. */
 static bool keeps_captured(struct touchstone_engine *engine, uint32_t i)
 {
-	uint32_t kept[HELD + 16], count, some;
+	uint32_t kept[HEARD + 16], count, some;
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
 	struct bounds bounds;
 	bool keeps = true;
 	for (; count && keeps; captured += some, count -= some) {
-		some = count < HELD ? count : HELD;
+		some = count < HEARD ? count : HEARD;
 		for (uint32_t k = 0; k < some + 16; k++) {
 			const struct potential *potential =
 				potential_between(engine, i, entry_particle(captured[k < some ? k : 0].entry));
@@ -92,7 +94,7 @@ static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *part
 
 /* Some of those that particle i is tested against. */
 struct tests {
-	uint32_t count, state[HELD];
+	uint32_t count, state[HEARD];
 	struct bounds bounds;
 };
 
@@ -115,7 +117,7 @@ static inline void add_test(const struct touchstone_engine *engine, uint32_t i, 
 /* Tells what there is to tell of them, and counts the others that are in a state. */
 static void tell_some(struct touchstone_engine *engine, uint32_t i, struct tests *tests)
 {
-	uint32_t kept[HELD + 16], count = tests->count;
+	uint32_t kept[HEARD + 16], count = tests->count;
 	size_t left = count, at = 0;
 	tests->count = 0;
 	if (!count) return;
@@ -151,7 +153,7 @@ static void tell_tests_of(struct touchstone_engine *engine, uint32_t i, const ui
 	for (size_t k = 0; k < candidates; k++) {
 		if (entry_particle(list[k]) == but) continue;
 		add_test(engine, i, list[k], marked_state(engine, i, list[k], captured), &tests);
-		if (tests.count == HELD) tell_some(engine, i, &tests);
+		if (tests.count == HEARD) tell_some(engine, i, &tests);
 	}
 	tell_some(engine, i, &tests);
 	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = 0;
