@@ -183,18 +183,21 @@ static cells_lister *choose_lister(bool packed)
 	return packed ? list_packed_any : list_rows_any;
 }
 
-size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t self,
-					uint32_t *list)
+size_t cells_entered(const struct cells *cells, const uint16_t cell[3], const int step[3], uint32_t self,
+					 uint32_t *list)
 {
-	const uint32_t *face = cells->entry + cells_index(cells, cell) + side * (ptrdiff_t)cells->stride[axis];
-	size_t capacity = cells->capacity;
-	ptrdiff_t offset[9];
-	if (axis == 0) { /* single cells of every row */
-		for (int row = 0; row < cells->rows; row++) offset[row] = cells->row[row] + (ptrdiff_t)capacity;
-		return cells->list_rows(cells, face, offset, cells->rows, capacity, self, list);
+	const uint32_t *centre = cells->entry + cells_index(cells, cell);
+	size_t capacity = cells->capacity, found = 0;
+	ptrdiff_t whole[9], end[9]; /* rows that are new, and rows of which one cell is */
+	int wholes = 0, ends = 0;
+	for (int row = 0; row < cells->rows; row++) {
+		int y = row % 3 - 1, z = row / 3 - 1;
+		if ((step[1] && y == step[1]) || (step[2] && z == step[2]))
+			whole[wholes++] = cells->row[row];
+		else
+			end[ends++] = cells->row[row] + (1 + step[0]) * (ptrdiff_t)capacity;
 	}
-	int rows = 0;
-	for (int row = 0; row < cells->rows; row++)
-		if (axis == 1 ? row % 3 == 1 : row / 3 == 1) offset[rows++] = cells->row[row];
-	return cells->list_rows(cells, face, offset, rows, 3 * capacity, self, list);
+	if (wholes) found = cells->list_rows(cells, centre, whole, wholes, 3 * capacity, self, list);
+	if (step[0]) found += cells->list_rows(cells, centre, end, ends, capacity, self, list + found);
+	return found;
 }

@@ -75,8 +75,8 @@ static inline size_t cells_index(const struct cells *cells, const uint16_t cell[
 	return cell[0] * cells->stride[0] + cell[1] * cells->stride[1] + cell[2] * cells->stride[2];
 }
 
-/* Lists the entries of a cell and its neighbours, or only of the neighbours beyond one face (axis, side -1 or +1), but
- * for the entry `self`.
+/* Lists the entries of a cell and its neighbours, or only of those that are not neighbours of the cell it was entered
+ * from by a step of -1, 0 or 1 along each axis, but for the entry `self`.
  * `list` has room for cells_most() entries and 32 more, and 16 times particle 0 after the last. Returns
  * how many there are. */
 static inline size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t self, uint32_t *list)
@@ -84,8 +84,8 @@ static inline size_t cells_around(const struct cells *cells, const uint16_t cell
 	return cells->list_rows(cells, cells->entry + cells_index(cells, cell), cells->row, cells->rows,
 							3 * (size_t)cells->capacity, self, list);
 }
-size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t self,
-					uint32_t *list);
+size_t cells_entered(const struct cells *cells, const uint16_t cell[3], const int step[3], uint32_t self,
+					 uint32_t *list);
 
 static inline size_t cells_most(const struct cells *cells)
 {

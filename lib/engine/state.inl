@@ -172,6 +172,8 @@ struct touchstone_engine {
 	double reach;                /* largest distance at which anything happens to a pair */
 	double slack;                /* how much wider than `reach` a cell must be for rounding not to matter */
 	double cell_side[3];
+	double stray[3]; /* how far beyond the faces of its cell a particle goes before it leaves it */
+	bool strays;     /* whether that is far, in straight flights */
 	struct cells cells;
 	uint32_t *candidate[2]; /* entries that a search has listed; two searches may be under way */
 	struct shadows shadows;

@@ -67,9 +67,9 @@ static void begin_measuring(struct outcome *outcome, const struct run_plan *plan
 {
 	touchstone_recount(simulation->engine);
 	touchstone_status(simulation->engine, &outcome->status);
-	outcome->conservation = plan->conservation;
+	outcome->conservation = plan->measures & RUN_CONSERVATION;
 	outcome->time_begun = outcome->status.time;
-	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
+	if (outcome->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
 }
 
 /* Shows an event to all that look on. */
@@ -120,7 +120,7 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 			 limits.time == INFINITY)
 		reason(outcome, "no event is left after t = %.17g", outcome->status.time);
 	for (size_t w = 0; w < outcome->virtual_wall_count; w++) touchstone_flux(simulation->engine, w, outcome->fluxes[w]);
-	if (plan->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
+	if (outcome->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
 }
 
 /* The same run once more, watched for what goes wrong. */
@@ -155,11 +155,12 @@ static bool compare(struct outcome *outcome, const struct run_plan *plan, struct
 static bool begin_measures(struct outcome *outcome, const struct run_plan *plan)
 {
 	int bits = arithmetic_bits(plan->file->arithmetic);
-	if (plan->impact && !(outcome->impact = malloc(sizeof *outcome->impact))) return false;
-	if (plan->impact) impact_begin(outcome->impact, bits);
-	if (plan->three_body) outcome->three_bodies = three_body_begin(&outcome->three_body, outcome->particles);
-	if (plan->three_body && !outcome->three_bodies) return false;
-	if (!plan->states) return true;
+	unsigned measures = plan->measures;
+	if (measures & RUN_IMPACT && !(outcome->impact = malloc(sizeof *outcome->impact))) return false;
+	if (outcome->impact) impact_begin(outcome->impact, bits);
+	if (measures & RUN_THREE_BODY) outcome->three_bodies = three_body_begin(&outcome->three_body, outcome->particles);
+	if (measures & RUN_THREE_BODY && !outcome->three_bodies) return false;
+	if (!(measures & RUN_STATES)) return true;
 	outcome->states = calloc(1, sizeof *outcome->states);
 	return outcome->states && inconsistency_begin(&outcome->states->inconsistency, bits, outcome->particles);
 }
@@ -199,7 +200,8 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	checkpointing.measuring = measuring;
 	if (framed && plan->every && measuring && !outcome->failed) frames_follow(&frames);
 	if (measuring && !outcome->failed) measure(outcome, plan, simulation, progress, before);
-	if (measuring && plan->failure && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
+	bool judged = plan->measures & RUN_FAILURE;
+	if (judged && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
 	if (framed && outcome->failed) frames_drop(&frames);
 	if (framed && !outcome->failed) frames_end(&frames, outcome->error);
 }
