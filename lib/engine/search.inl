@@ -141,6 +141,7 @@ static void consider_neighbours(struct touchstone_engine *engine, const uint32_t
 								struct plan plan[2]);
 static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates);
 static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
+static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *particle, int particles);
 static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
 					   const size_t candidates[2], int particles);
 
@@ -148,7 +149,7 @@ static void tell_tests(struct touchstone_engine *engine, const uint32_t *particl
 static void predict_listed(struct touchstone_engine *engine, const uint32_t *particle, int particles,
 						   struct plan plan[2])
 {
-	if (engine->executing && engine->tested) {
+	if (engine->executing && engine->listener) {
 		size_t candidates[2] = {0};
 		for (int p = 0; p < particles; p++)
 			candidates[p] =
@@ -178,9 +179,13 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
 		if (captures && engine->method->policy & POLICY_POSITIONAL)
 			for (int p = 0; p < particles; p++) read_all_again(engine, particle[p], list[p], candidates[p]);
-		if (captures && engine->executing && engine->tested) tell_tests(engine, particle, list, candidates, particles);
+		bool heard = captures && engine->executing && engine->listener;
+		bool sieved = heard && sieve_listens(engine, particle, particles);
+		if (heard && !sieved) tell_tests(engine, particle, list, candidates, particles);
 		for (int p = 0; captures && p < particles; p++) consider_captured(engine, particle[p], &plan[p]);
 		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
+		if (sieved) tell_tests(engine, particle, list, candidates, particles);
+		engine->shadows.sieve.heard = 0;
 		for (int p = 0; captures && p < particles; p++)
 			candidates[p] = without_captured(engine, particle[p], list[p], candidates[p]);
 		for (int p = 0; p < particles; p++) consider_pairs(engine, particle[p], list[p], candidates[p], &plan[p]);

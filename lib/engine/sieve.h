@@ -43,6 +43,7 @@ struct sieve {
 	float roundoff; /* of the working arithmetic: n */
 	float drift;    /* error of its flights, as a time */
 	float latest;   /* meetings surely later are of no interest; INFINITY for none */
+	float heard;    /* pairs no farther apart than so many times their contact distance pass in any case; 0: none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
 	bool images;    /* whether any entry may be an image */
 };
@@ -59,6 +60,12 @@ struct held {
 	const uint32_t *entry;
 	const float *outer, *inner; /* outer: 0 where they do not part; inner: 0 where there is nothing to meet */
 };
+
+/* Looks over `count` pairs, where `outer` may be INFINITY: writes the numbers of those that are not surely nearer than
+ * `outer` and farther than `inner`, in their order, to `kept`, which has room for 16 more, and returns how many there
+ * are. Sure is |r.r - s^2| > E_c. */
+typedef size_t sieve_check(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
+						   const struct held *held, size_t count, uint32_t *kept);
 
 /* Writes to `soonest`, which has room for 16 more, a time after now for each of `count` pairs of this kind before which
  * it has no event: INFINITY where it has none. Returns the number of the pair for which it is least.
@@ -79,6 +86,7 @@ struct sieve_machine {
 	const char *name;
 	sieve_pass *pass;
 	sieve_hold *hold;
+	sieve_check *check;
 	sieve_cast *cast;
 };
 const struct sieve_machine *sieve_machine(size_t number);

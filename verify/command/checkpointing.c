@@ -126,15 +126,13 @@ void checkpointing_begin(struct checkpointing *checkpointing, bool measuring)
 {
 	checkpointing->measuring = measuring;
 	if (!checkpointing->plan->checkpoint) return;
-	struct simulation *simulation = checkpointing->simulation;
-	simulation->every = checkpointing->plan->every;
-	simulation->pause = write_one;
-	simulation->pause_context = checkpointing;
+	checkpointing->simulation->pause[PAUSE_CHECKPOINT] = (struct simulation_pause){write_one, checkpointing};
 }
 
 void checkpointing_end(struct simulation *simulation)
 {
-	if (simulation->pause) simulation->pause(simulation->pause_context);
+	const struct simulation_pause *pause = &simulation->pause[PAUSE_CHECKPOINT];
+	if (pause->look) pause->look(pause->context);
 }
 
 /* ------------------------------------------------------------------ resuming */

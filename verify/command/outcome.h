@@ -87,10 +87,10 @@ struct run_plan {
 	size_t setting_count;
 	unsigned measures;      /* of enum run_measure */
 	bool trace;             /* told event by event? */
-	const char *xyz;        /* file for the final configuration, or NULL */
+	const char *xyz;        /* file for the particles at the end, or NULL */
 	const char *against;    /* a finer arithmetic to find the horizon with, or NULL */
-	const char *checkpoint; /* file for checkpoints, or NULL: */
-	uint64_t every;         /* so many events; 0: at the end only */
+	const char *checkpoint; /* file for checkpoints, or NULL */
+	uint64_t every;         /* so many events both are written, particles as one more frame; 0: at the end only */
 	const char *resume;     /* file of the checkpoint that the run goes on from, and what it holds; or NULL */
 	const struct checkpoint *resumed;
 };
@@ -99,6 +99,7 @@ struct run_plan {
 struct states_outcome {
 	struct inconsistency inconsistency;
 	struct misreading misreading;
+	struct touchstone_listener listener; /* to tests, for both */
 };
 
 /* What became of one run. */

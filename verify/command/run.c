@@ -64,13 +64,15 @@ static const struct argp_option options[] = {
 	 2},
 	{"json", JSON, "FILE", 0, "Write what came of it as JSON; - for standard output, instead of the table", 2},
 	{"xyz", XYZ, "FILE", 0,
-	 "Write the particles at the end as extended XYZ, with how many partners each has captured where there are steps",
+	 "Write the particles at the end as extended XYZ, with how many partners each has captured where there are steps; "
+	 "with --every, first those at the beginning and on the way, as frames of the one file",
 	 2},
 	{"runs", RUNS, "R", 0, "Run R times, with the seeds S, S+1, ... (1)", 3},
 	{"threads", THREADS, "K", 0, "Run K of them at a time (1); the results do not depend on it", 3},
 	{"checkpoint", CHECKPOINT, "FILE", 0,
 	 "Write the whole state to FILE at the end and on Ctrl-C, so that --resume can go on from it", 4},
-	{"every", EVERY, "N", 0, "and whenever so many more events have been executed", 4},
+	{"every", EVERY, "N", 0, "Write what --checkpoint and --xyz write whenever so many more events have been executed",
+	 4},
 	{"resume", RESUME, "FILE", 0,
 	 "Go on from a checkpoint of the same scene as if the run had never stopped: --events, --time and what is measured "
 	 "mean the whole of it",
@@ -321,7 +323,8 @@ static int run(const struct wish *wish)
 					  (unsigned long long)wish->runs);
 	if ((wish->checkpoint || wish->resume) && wish->against)
 		return refuse("--against: accepted: without --checkpoint and --resume, since both runs begin together");
-	if (wish->every && !wish->checkpoint) return refuse("--every: accepted: with --checkpoint");
+	if (wish->every && ((!wish->checkpoint && !wish->xyz) || wish->trace))
+		return refuse("--every: accepted: with --checkpoint or --xyz, and without --trace");
 	if (wish->xyz && (wish->runs > 1 || strcmp(wish->xyz, "-") == 0))
 		return refuse("--xyz: accepted: a file, and a single run");
 	const char *unkept = wish->trace                    ? "trace"
