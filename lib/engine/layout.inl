@@ -43,8 +43,7 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 	 * Where spheres are far apart, larger cells: crossing one costs more than looking at more neighbours. */
 	static const double few_neighbours[] = {4, 1.5}; /* in 1 and 2 dimensions */
 	int dimensions = engine->dimensions;
-	double occupancy = dimensions < 3 ? few_neighbours[dimensions - 1]
-									  : (getenv("OCC") ? atof(getenv("OCC")) : 0.45) * pow(content / volume, -1.0 / 3);
+	double occupancy = dimensions < 3 ? few_neighbours[dimensions - 1] : 0.45 * pow(content / volume, -1.0 / 3);
 	double side = engine->wanted_cell > 0 ? engine->wanted_cell
 										  : pow(volume * occupancy / engine->count, 1.0 / engine->dimensions);
 	side = fmax(side, reach);
@@ -56,7 +55,7 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 		engine->stray[axis] = engine->side ? 0 : fmax(0, (engine->cell_side[axis] - reach) / 2);
 		engine->cells.count[axis] = count[axis];
 	}
-	double far = getenv("FAR") ? atof(getenv("FAR")) : 0.125; /* of a cell */
+	static const double far = 0.125; /* of a cell */
 	bool by_faces = !engine->accelerated && engine->neighbours.skin == 0;
 	engine->strays = by_faces && engine->stray[0] > far * engine->cell_side[0];
 	for (uint32_t i = 0; i < engine->count; i++) {
