@@ -7,9 +7,11 @@
 #   make soak              an hour of looking for what is rare, SOAK=600 for ten minutes: kills of runs, campaigns and
 #                          audits, the correctly rounded finder against the exact oracle, make fuzz, make valgrind
 #   make valgrind          test programs under valgrind's memcheck, MEMCHECK=900 seconds in all, MEMCHECK_EACH=60 at most
-#   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++
+#   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++;
+#                          verify/fuzz/coverage does the same, and ends with 77 where the fuzzer is missing
 #   make CC=clang          another compiler               make BUILD=build/other   another place
-#   make live              the convection scene in a browser: build/live.html, one file; make live-test drives it in Chromium
+#   make live              the scenes in a browser: build/live.html, one file; make live-test drives it in Chromium,
+#                          make live-frames tells how fast it draws
 #   make clean, make format
 
 VERSION  := 0.1
@@ -91,7 +93,8 @@ soak: $(BUILD)/touchstone $(SOAKERS)
 	share $$(($(SOAK) / 8)) $(BUILD)/verify/soak/kill_soak 1000000; \
 	share $$(($(SOAK) / 8)) $(BUILD)/verify/soak/kept_soak 1000000; \
 	share $$(($(SOAK) / 4)) $(BUILD)/verify/soak/rounded_soak 1e15; \
-	$(MAKE) --no-print-directory fuzz SECONDS_EACH=$$(($(SOAK) / 4 / $(words $(TARGETS)))) || status=1; \
+	BUILD='$(BUILD)' MAKE='$(MAKE)' verify/fuzz/coverage libfuzzer $$(($(SOAK) / 4 / $(FUZZED))) || \
+		[ $$? -eq 77 ] || status=1; \
 	$(MAKE) --no-print-directory valgrind MEMCHECK=$$(($(SOAK) / 4)) || status=1; \
 	exit $$status
 
@@ -105,19 +108,13 @@ valgrind:
 	@$(MAKE) --no-print-directory -j$(CORES) prepared
 	@verify/test/memcheck $(MEMCHECK) $(MEMCHECK_EACH) $$(shuf -e $(TESTS))
 
-# Coverage-guided fuzzing of finders and readers, so many seconds each: by libFuzzer, or with FUZZER=afl by AFL++.
+# Coverage-guided fuzzing of finders and readers, so many seconds each: by libFuzzer, or with FUZZER=afl by AFL++. Called
+# alone, the script ends with 77 where the fuzzer is missing; make ends with 2 then.
 SECONDS_EACH := 60
 FUZZER   := libfuzzer
-FUZZ_CC  := $(if $(filter afl,$(FUZZER)),afl-clang-fast,clang)
-TARGETS  := $(patsubst verify/fuzz/target/%.c,$(BUILD)/fuzz-$(FUZZER)/target/%,$(wildcard verify/fuzz/target/*.c))
-fuzz: $(BUILD)/touchstone
-	@.ci/setup $(if $(filter afl,$(FUZZER)),afl || true,fuzz)
-	@echo 'int LLVMFuzzerTestOneInput(void) { return 0; }' | \
-		$(FUZZ_CC) -fsanitize=fuzzer -x c -o /dev/null - >/dev/null 2>&1 || \
-		{ echo 'fuzz: skipped, for $(FUZZ_CC) -fsanitize=fuzzer does not work here' >&2; exit 77; }
-	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/fuzz-$(FUZZER) CC=$(FUZZ_CC) OPTIMISE=-O1 \
-		EXTRA='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(TARGETS)
-	@verify/fuzz/guide $(BUILD)/touchstone $(BUILD)/fuzz-$(FUZZER) $(SECONDS_EACH) $(TARGETS)
+FUZZED   := $(words $(wildcard verify/fuzz/target/*.c))
+fuzz:
+	@BUILD='$(BUILD)' MAKE='$(MAKE)' verify/fuzz/coverage $(FUZZER) $(SECONDS_EACH)
 
 # The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest. To
 # optimise arithmetics that few of them use takes longer than it saves `make test`.

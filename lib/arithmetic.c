@@ -124,9 +124,9 @@ double touchstone_temperature(const struct touchstone_engine *engine, uint32_t p
 	return unit_of(engine)->temperature(engine, particle);
 }
 
-void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach, void *context)
+void touchstone_observe_tests(struct touchstone_engine *engine, struct touchstone_listener *listener)
 {
-	unit_of(engine)->observe_tests(engine, tested, reach, context);
+	unit_of(engine)->observe_tests(engine, listener);
 }
 
 int touchstone_separation(const struct touchstone_engine *engine, double terms[3][3 * TOUCHSTONE_MOST_TERMS],

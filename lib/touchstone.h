@@ -182,7 +182,17 @@ struct touchstone_test {
 	int within, step;       /* how many steps it is within, in the working arithmetic; and outside of the nearest one */
 	double excess; /* |r|^2 / d^2 - 1 at that step's distance d, in the working arithmetic, rounded to double */
 };
-typedef void touchstone_tested(void *context, struct touchstone_engine *engine, const struct touchstone_test *test);
+
+/* Who is told of such pairs, and of which. */
+struct touchstone_listener {
+	void (*tested)(void *context, struct touchstone_engine *engine, const struct touchstone_test *test);
+	void *context;
+	double reach; /* pairs count in a state other than 0, or no farther apart than so many times their outermost step */
+	double margin;  /* told of is who has an excess no larger than this, at any step, or is elsewhere than its state
+					   says, `within` against `state`; INFINITY: all that count */
+	uint64_t tests; /* that counted so far, told or not */
+};
+
 struct touchstone_limits {
 	uint64_t events;          /* physical events to execute at most, in this call */
 	double time;              /* no event later than this is executed; INFINITY for no limit */
@@ -254,9 +264,9 @@ void touchstone_state(const struct touchstone_engine *engine, uint32_t particle,
 /* The temperature a particle carries, rounded to double; NaN in a scene without convection. */
 double touchstone_temperature(const struct touchstone_engine *engine, uint32_t particle);
 
-/* From here on `tested` is told of pairs (and images) that the search after an event tests: those in a state other than
- * 0, or no farther apart than `reach` times their outermost step. NULL: nobody is, at no cost. */
-void touchstone_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach, void *context);
+/* From here on `listener` is told of pairs (and images) that the search after an event tests. It stays the caller's,
+ * who keeps it while it is told. NULL: nobody is told, at no cost. */
+void touchstone_observe_tests(struct touchstone_engine *engine, struct touchstone_listener *listener);
 
 /* During an observer's call: the exact relative position, first minus second particle, of the pair whose event or test
  * it is. terms[axis] receives doubles whose exact sum is the component, and returned is how many; contact receives the

@@ -165,6 +165,7 @@ static void link_cells(const json_t *view, bool there)
 			json_object_set_new(cell, "watch", address);
 		else
 			json_object_del(cell, "watch");
+		if (!there) json_object_del(cell, "unseen");
 	}
 }
 

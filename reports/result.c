@@ -249,6 +249,11 @@ void table_live(struct result_table table, const char *query)
 	add_to_cell(table, "live", query);
 }
 
+void table_unseen(struct result_table table, const char *why)
+{
+	add_to_cell(table, "unseen", why);
+}
+
 /* ------------------------------------------------------------------ figures */
 
 static json_t *axis(struct result *result, const struct figure_axis *axis)

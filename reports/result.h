@@ -99,6 +99,7 @@ __attribute__((format(printf, 3, 4))) void table_shaded(struct result_table tabl
 void table_anchor(struct result_table table, const char *name); /* names it, once in a result */
 void table_link(struct result_table table, const char *anchor); /* a click leads to the cell so named in this result */
 void table_live(struct result_table table, const char *query);  /* what the live page shows of it: see result_live */
+void table_unseen(struct result_table table, const char *why);  /* what the live page does not show of it, and why */
 
 /* ------------------------------------------------------------------ figures */
 

@@ -66,6 +66,11 @@ static bool is_query(const char *text)
 	return text[strspn(text, allowed)] == '\0';
 }
 
+static bool is_any(const char *text)
+{
+	return text;
+}
+
 /* What may be missing, and must be sound where it is there. */
 static bool is_optional(const json_t *value, bool (*sound)(const char *))
 {
@@ -81,7 +86,8 @@ static bool is_rich(const json_t *value)
 		   (!level || (json_is_integer(level) && shade >= 0 && shade < TABLE_LEVELS)) &&
 		   is_optional(json_object_get(value, "anchor"), is_name) &&
 		   is_optional(json_object_get(value, "link"), is_name) &&
-		   is_optional(json_object_get(value, "live"), is_query);
+		   is_optional(json_object_get(value, "live"), is_query) &&
+		   is_optional(json_object_get(value, "unseen"), is_any);
 }
 
 static bool is_cell(const json_t *value)

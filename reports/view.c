@@ -122,7 +122,8 @@ static void set_command(json_t *view, const char *text)
 /* A name and links; `watch` becomes an address where the live page is (page.c). */
 static void set_links(json_t *view, const json_t *cell)
 {
-	static const char *const keys[][2] = {{"anchor", "anchor"}, {"link", "leads"}, {"live", "watch"}};
+	static const char *const keys[][2] = {
+		{"anchor", "anchor"}, {"link", "leads"}, {"live", "watch"}, {"unseen", "unseen"}};
 	for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
 		if (json_object_get(cell, keys[k][0])) set_text(view, keys[k][1], text_at(cell, keys[k][0]));
 }

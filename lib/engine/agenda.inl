@@ -57,6 +57,9 @@ static bool entry_first(const void *context, const struct entry *a, const struct
 static bool note_holds(const void *context, struct note note);
 static struct entry entry_of(const void *context, struct note note);
 
+/* Fetches into the cache what will be wanted when a note's turn comes. */
+static void note_ahead(const void *context, struct note note);
+
 /* Makes room for one more element; false when there is no memory. */
 static bool agenda_grow(void **array, size_t *room, size_t used, size_t size)
 {
@@ -212,8 +215,11 @@ static void agenda_turn(struct agenda *agenda, const void *context, double today
 /* Enters what a pile holds and still holds true into the heap, and empties it. */
 static void pile_enter(struct agenda *agenda, const void *context, struct pile *pile)
 {
-	for (uint32_t i = 0; i < pile->used; i++)
-		if (note_holds(context, pile->note[i])) heap_add(agenda, context, entry_of(context, pile->note[i]));
+	for (uint32_t i = 0; i < pile->used; i++) {
+		if (!note_holds(context, pile->note[i])) continue;
+		note_ahead(context, pile->note[i]);
+		heap_add(agenda, context, entry_of(context, pile->note[i]));
+	}
 	agenda->piled -= pile->used;
 	agenda->sorted += pile->used;
 	pile->used = 0;

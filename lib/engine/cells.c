@@ -7,11 +7,14 @@
 #include <immintrin.h>
 #endif
 
-static cells_lister *choose_lister(void);
+static cells_lister *choose_lister(bool packed);
+
+static const uint32_t packed_from = 32; /* entries per cell: two steps of sixteen */
 
 bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], const int count[3], uint32_t capacity)
 {
-	*cells = (struct cells){.dimensions = dimensions, .capacity = capacity, .list_rows = choose_lister()};
+	*cells = (struct cells){.dimensions = dimensions, .capacity = capacity, .packed = capacity >= packed_from};
+	cells->list_rows = choose_lister(cells->packed);
 	size_t total = capacity;
 	for (int axis = 0; axis < 3; axis++) {
 		cells->periodic[axis] = periodic[axis];
@@ -54,7 +57,11 @@ static bool replace(struct cells *cells, size_t index, uint32_t old, uint32_t en
 	uint32_t *slot = cells->entry + index;
 	for (uint32_t i = 0; i < cells->capacity; i++) {
 		if (slot[i] == old) {
-			slot[i] = entry;
+			uint32_t last = i;
+			while (cells->packed && entry == entry_none && last + 1 < cells->capacity && slot[last + 1] != entry_none)
+				last++;
+			slot[i] = slot[last];
+			slot[last] = entry;
 			return true;
 		}
 	}
@@ -91,10 +98,11 @@ void cells_remove(struct cells *cells, const uint16_t cell[3], uint32_t particle
 }
 
 /* Without a branch per entry. */
-static size_t list_rows_any(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self,
-							uint32_t *list)
+static size_t list_rows_any(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							size_t length, uint32_t self, uint32_t *list)
 {
 	size_t found = 0;
+	(void)cells;
 	for (int row = 0; row < rows; row++)
 		for (size_t i = 0; i < length; i++) {
 			uint32_t entry = centre[offset[row] + (ptrdiff_t)i];
@@ -105,11 +113,30 @@ static size_t list_rows_any(const uint32_t *centre, const ptrdiff_t *offset, int
 	return found;
 }
 
+/* Cell by cell, each as far as it is filled. */
+static size_t list_packed_any(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							  size_t length, uint32_t self, uint32_t *list)
+{
+	size_t found = 0;
+	for (int row = 0; row < rows; row++)
+		for (size_t cell = 0; cell < length; cell += cells->capacity)
+			for (size_t i = 0; i < cells->capacity; i++) {
+				uint32_t entry = centre[offset[row] + (ptrdiff_t)(cell + i)];
+				if (entry == entry_none) break;
+				list[found] = entry;
+				found += entry != self;
+			}
+	for (size_t i = 0; i < 16; i++) list[found + i] = 0;
+	return found;
+}
+
 #ifdef __x86_64__
 /* Sixteen entries at a time: a row of three cells is usually one such step. */
 __attribute__((target("avx512f,popcnt,bmi,bmi2"))) static size_t
-list_rows_512(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self, uint32_t *list)
+list_rows_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
+			  uint32_t self, uint32_t *list)
 {
+	(void)cells;
 	const __m512i none = _mm512_set1_epi32((int)entry_none), own = _mm512_set1_epi32((int)self);
 	size_t found = 0;
 	for (int row = 0; row < rows; row++)
@@ -124,28 +151,53 @@ list_rows_512(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t 
 	_mm512_storeu_si512(list + found, _mm512_setzero_si512());
 	return found;
 }
+
+__attribute__((target("avx512f,popcnt,bmi,bmi2"))) static size_t
+list_packed_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
+				uint32_t self, uint32_t *list)
+{
+	const __m512i none = _mm512_set1_epi32((int)entry_none), own = _mm512_set1_epi32((int)self);
+	size_t found = 0;
+	for (int row = 0; row < rows; row++)
+		for (size_t cell = 0; cell < length; cell += cells->capacity) {
+			__mmask16 filled = 0xffff;
+			for (size_t i = 0; i < cells->capacity && filled == 0xffff; i += 16) {
+				__m512i some = _mm512_loadu_si512(centre + offset[row] + cell + i);
+				filled = _mm512_cmpneq_epu32_mask(some, none);
+				__mmask16 used = _mm512_mask_cmpneq_epu32_mask(filled, some, own);
+				_mm512_storeu_si512(list + found, _mm512_maskz_compress_epi32(used, some));
+				found += (unsigned)__builtin_popcount(used);
+			}
+		}
+	_mm512_storeu_si512(list + found, _mm512_setzero_si512());
+	return found;
+}
 #endif
 
-static cells_lister *choose_lister(void)
+static cells_lister *choose_lister(bool packed)
 {
 #ifdef __x86_64__
-	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("bmi2")) return list_rows_512;
+	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("bmi2"))
+		return packed ? list_packed_512 : list_rows_512;
 #endif
-	return list_rows_any;
+	return packed ? list_packed_any : list_rows_any;
 }
 
-size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t self,
-					uint32_t *list)
+size_t cells_entered(const struct cells *cells, const uint16_t cell[3], const int step[3], uint32_t self,
+					 uint32_t *list)
 {
-	const uint32_t *face = cells->entry + cells_index(cells, cell) + side * (ptrdiff_t)cells->stride[axis];
-	size_t capacity = cells->capacity;
-	ptrdiff_t offset[9];
-	if (axis == 0) { /* single cells of every row */
-		for (int row = 0; row < cells->rows; row++) offset[row] = cells->row[row] + (ptrdiff_t)capacity;
-		return cells->list_rows(face, offset, cells->rows, capacity, self, list);
+	const uint32_t *centre = cells->entry + cells_index(cells, cell);
+	size_t capacity = cells->capacity, found = 0;
+	ptrdiff_t whole[9], end[9]; /* rows that are new, and rows of which one cell is */
+	int wholes = 0, ends = 0;
+	for (int row = 0; row < cells->rows; row++) {
+		int y = row % 3 - 1, z = row / 3 - 1;
+		if ((step[1] && y == step[1]) || (step[2] && z == step[2]))
+			whole[wholes++] = cells->row[row];
+		else
+			end[ends++] = cells->row[row] + (1 + step[0]) * (ptrdiff_t)capacity;
 	}
-	int rows = 0;
-	for (int row = 0; row < cells->rows; row++)
-		if (axis == 1 ? row % 3 == 1 : row / 3 == 1) offset[rows++] = cells->row[row];
-	return cells->list_rows(face, offset, rows, 3 * capacity, self, list);
+	if (wholes) found = cells->list_rows(cells, centre, whole, wholes, 3 * capacity, self, list);
+	if (step[0]) found += cells->list_rows(cells, centre, end, ends, capacity, self, list + found);
+	return found;
 }

@@ -44,8 +44,9 @@ static inline uint32_t entry_shifted(uint32_t entry, int axis, int by)
 
 /* Lists the entries in use, but for `self`, in so many rows of `length` entries each, which begin at `centre` + offset.
  */
-typedef size_t cells_lister(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self,
-							uint32_t *list);
+struct cells;
+typedef size_t cells_lister(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							size_t length, uint32_t self, uint32_t *list);
 
 struct cells {
 	int dimensions;
@@ -53,6 +54,7 @@ struct cells {
 	int count[3];      /* without ghosts; coordinates of real cells run from 1 to count */
 	size_t stride[3];  /* in entries */
 	uint32_t capacity; /* entries per cell */
+	bool packed;       /* whether the entries of a cell stand without gaps: where cells are large and mostly empty */
 	uint32_t *entry;   /* all cells, x fastest */
 	size_t entries;
 	ptrdiff_t row[9]; /* offsets, in entries, of the rows of three cells around a cell */
@@ -73,17 +75,17 @@ static inline size_t cells_index(const struct cells *cells, const uint16_t cell[
 	return cell[0] * cells->stride[0] + cell[1] * cells->stride[1] + cell[2] * cells->stride[2];
 }
 
-/* Lists the entries of a cell and its neighbours, or only of the neighbours beyond one face (axis, side -1 or +1), but
- * for the entry `self`.
+/* Lists the entries of a cell and its neighbours, or only of those that are not neighbours of the cell it was entered
+ * from by a step of -1, 0 or 1 along each axis, but for the entry `self`.
  * `list` has room for cells_most() entries and 32 more, and 16 times particle 0 after the last. Returns
  * how many there are. */
 static inline size_t cells_around(const struct cells *cells, const uint16_t cell[3], uint32_t self, uint32_t *list)
 {
-	return cells->list_rows(cells->entry + cells_index(cells, cell), cells->row, cells->rows,
+	return cells->list_rows(cells, cells->entry + cells_index(cells, cell), cells->row, cells->rows,
 							3 * (size_t)cells->capacity, self, list);
 }
-size_t cells_beyond(const struct cells *cells, const uint16_t cell[3], int axis, int side, uint32_t self,
-					uint32_t *list);
+size_t cells_entered(const struct cells *cells, const uint16_t cell[3], const int step[3], uint32_t self,
+					 uint32_t *list);
 
 static inline size_t cells_most(const struct cells *cells)
 {

@@ -68,6 +68,7 @@ extern const struct unit THIS_UNIT;
 
 #include "engine/shadow.inl"
 
+#include "engine/residence.inl"
 #include "engine/search.inl"
 
 #include "engine/policy.inl"

@@ -52,12 +52,9 @@ static void engine_recount(struct touchstone_engine *engine)
 	engine->digest = first_digest;
 }
 
-static void engine_observe_tests(struct touchstone_engine *engine, touchstone_tested *tested, double reach,
-								 void *context)
+static void engine_observe_tests(struct touchstone_engine *engine, struct touchstone_listener *listener)
 {
-	engine->tested = tested;
-	engine->tested_reach = reach;
-	engine->tested_context = context;
+	engine->listener = listener;
 }
 
 static void engine_elastic(struct touchstone_engine *engine, bool elastic)

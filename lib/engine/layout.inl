@@ -27,30 +27,6 @@ static uint16_t cell_of(const struct touchstone_engine *engine, double coordinat
 	return (uint16_t)(1 + fmin(fmax(cell, 0), engine->cells.count[axis] - 1));
 }
 
-/* Enters every particle into its cell; false when one is too full. */
-static bool fill_cells(struct touchstone_engine *engine)
-{
-	for (uint32_t i = 0; i < engine->count; i++)
-		if (!cells_insert(&engine->cells, engine->itinerary[i].cell, i)) return false;
-	return true;
-}
-
-/* Makes cells of the wanted capacity, doubling it until all particles find room; false when memory does not suffice. */
-static bool make_cells(struct touchstone_engine *engine, const int count[3], uint32_t capacity)
-{
-	for (;; capacity *= 2) {
-		cells_destroy(&engine->cells);
-		free(engine->candidate[0]);
-		engine->candidate[0] = NULL;
-		if (!cells_create(&engine->cells, engine->dimensions, engine->periodic, count, capacity)) return false;
-		size_t most = cells_most(&engine->cells) + 32;
-		engine->candidate[0] = malloc(2 * most * sizeof *engine->candidate[0]);
-		if (!engine->candidate[0]) return false;
-		engine->candidate[1] = engine->candidate[0] + most;
-		if (fill_cells(engine)) return true;
-	}
-}
-
 /* Chooses the grid for the particles as they are now. */
 static bool lay_out_cells(struct touchstone_engine *engine)
 {
@@ -65,7 +41,8 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 	 * Where spheres are far apart, larger cells: crossing one costs more than looking at more neighbours. */
 	static const double few_neighbours[] = {4, 1.5}; /* in 1 and 2 dimensions */
 	int dimensions = engine->dimensions;
-	double occupancy = dimensions < 3 ? few_neighbours[dimensions - 1] : 0.45 * pow(content / volume, -1.0 / 3);
+	double occupancy = dimensions < 3 ? few_neighbours[dimensions - 1]
+									  : (getenv("OCC") ? atof(getenv("OCC")) : 0.45) * pow(content / volume, -1.0 / 3);
 	double side = engine->wanted_cell > 0 ? engine->wanted_cell
 										  : pow(volume * occupancy / engine->count, 1.0 / engine->dimensions);
 	side = fmax(side, reach);
@@ -73,8 +50,11 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 		if (engine->search != TOUCHSTONE_ALL)
 			count[axis] = (int)fmin(fmax(floor(engine->box[axis] / side), 1), most_per_axis);
 		engine->cell_side[axis] = engine->box[axis] / count[axis];
+		engine->stray[axis] = fmax(0, (engine->cell_side[axis] - reach) / 2);
 		engine->cells.count[axis] = count[axis];
 	}
+	double far = getenv("FAR") ? atof(getenv("FAR")) : 0.125; /* of a cell */
+	engine->strays = !engine->accelerated && engine->stray[0] > far * engine->cell_side[0];
 	for (uint32_t i = 0; i < engine->count; i++) {
 		const struct body *body = &engine->body[i];
 		engine->itinerary[i].entered = moment_double(engine->now) - (body->page + to_double(body->time));

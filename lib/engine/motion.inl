@@ -51,6 +51,14 @@ static inline double moment_double(struct moment moment)
 	return moment.page + to_double(moment.time);
 }
 
+/* The place so many steps from another. None in the box is nearly as far as the bounds: only a state that somebody has
+ * altered, with more speed than its events allow for, comes to them. */
+static inline int32_t place_after(int32_t index, double steps)
+{
+	static const double most = 1 << 29;
+	return (int32_t)fmax(-most, fmin(index + steps, most));
+}
+
 /* Flies a body to a moment, and counts its position from the place it has reached. */
 static void advance(const struct touchstone_engine *engine, struct body *body, struct place *place,
 					struct moment moment)
@@ -67,7 +75,7 @@ static void advance(const struct touchstone_engine *engine, struct body *body, s
 		if (2 * fabs(offset) > width && width > 0) {
 			double steps = rint(offset / width);
 			position = sub(position, mul(from_double(steps), engine->place_size[axis]));
-			place->index[axis] += (int32_t)steps;
+			place->index[axis] = place_after(place->index[axis], steps);
 		}
 		body->position[axis] = position;
 	}

@@ -5,30 +5,18 @@ static void cross(struct touchstone_engine *engine, uint32_t i)
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
 	uint8_t face;
-	if (engine->accelerated) itinerary->entered = leaving_wait(engine, i, &face); /* a parabola may pass a face twice */
-	int axis = (itinerary->next - 1) / 2, side = (itinerary->next - 1) % 2 ? 1 : -1;
-	int cell = itinerary->cell[axis] + side, last = engine->cells.count[axis];
-	bool wraps = cell < 1 || cell > last;
-	cells_remove(&engine->cells, itinerary->cell, i);
-	if (wraps) {
-		cell -= side * last;
-		shift_image(engine, i, axis, -side);
-	}
-	itinerary->cell[axis] = (uint16_t)cell;
-	if (!cells_insert(&engine->cells, itinerary->cell, i)) {
-		int count[3] = {engine->cells.count[0], engine->cells.count[1], engine->cells.count[2]};
-		if (!make_cells(engine, count, 2 * engine->cells.capacity)) {
-			out_of_memory(engine);
-			return;
-		}
-	}
+	double flight = engine->accelerated || engine->strays ? leaving_wait(engine, i, &face) : 0;
+	if (engine->accelerated) itinerary->entered = flight; /* a parabola may pass a face twice */
+	int step[3] = {0};
+	step[(itinerary->next - 1) / 2] = (itinerary->next - 1) % 2 ? 1 : -1;
+	if (engine->strays) may_step(engine, i, flight, step);
+	bool wraps = move_by(engine, i, step);
+	if (engine->verdict != TOUCHSTONE_DONE) return;
 	cast_shadow(engine, i);
-	if (wraps) { /* images are counted from here on: whoever knew the old one asks again */
-		engine->itinerary[i].changes++;
+	if (wraps)
 		predict(engine, i);
-	} else {
-		predict_beyond(engine, i, axis, side);
-	}
+	else
+		predict_entered(engine, i, step);
 	schedule(engine, i);
 }
 
@@ -79,6 +67,8 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 		meet_step(engine, i, partner, meets == TOUCHSTONE_CAPTURE);
 	for (int p = 0; p < particles; p++) {
 		engine->itinerary[met[p]].entered = 0;
+		int step[3] = {0};
+		if (engine->strays && may_step(engine, met[p], 0, step)) move_by(engine, met[p], step);
 		cast_shadow(engine, met[p]);
 	}
 	if (engine->last_met) remember_event(engine, met, particles);

@@ -137,6 +137,7 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
 static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates);
 static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
+static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *particle, int particles);
 static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
 					   const size_t candidates[2], int particles);
 
@@ -157,9 +158,13 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
 		if (captures && engine->method->policy & POLICY_POSITIONAL)
 			for (int p = 0; p < particles; p++) read_all_again(engine, particle[p], list[p], candidates[p]);
-		if (captures && engine->executing && engine->tested) tell_tests(engine, particle, list, candidates, particles);
+		bool heard = captures && engine->executing && engine->listener;
+		bool sieved = heard && sieve_listens(engine, particle, particles);
+		if (heard && !sieved) tell_tests(engine, particle, list, candidates, particles);
 		for (int p = 0; captures && p < particles; p++) consider_captured(engine, particle[p], &plan[p]);
 		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
+		if (sieved) tell_tests(engine, particle, list, candidates, particles);
+		engine->shadows.sieve.heard = 0;
 		for (int p = 0; captures && p < particles; p++)
 			candidates[p] = without_captured(engine, particle[p], list[p], candidates[p]);
 		for (int p = 0; p < particles; p++) consider_pairs(engine, particle[p], list[p], candidates[p], &plan[p]);
@@ -172,89 +177,19 @@ static void predict(struct touchstone_engine *engine, uint32_t i)
 	predict_all(engine, &i, 1);
 }
 
-/* A particle has come into a cell through one face: looks only at what lies beyond the opposite one. What it meant to
- * do stands unless something comes before it; if that is stale, its partner's own search has seen what replaced it. */
-static void predict_beyond(struct touchstone_engine *engine, uint32_t i, int axis, int side)
+/* A particle has come into a cell by a step from one next to it: looks only where it did not look from there. What it
+ * meant to do stands unless something comes before it; if that is stale, its partner's own search has seen what
+ * replaced it. */
+static void predict_entered(struct touchstone_engine *engine, uint32_t i, const int step[3])
 {
 	const struct itinerary *itinerary = &engine->itinerary[i];
 	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, engine->itinerary[i].meets, false};
 	uint32_t *list = engine->candidate[0];
-	size_t candidates = cells_beyond(&engine->cells, engine->itinerary[i].cell, axis, side, i, list);
+	size_t candidates = cells_entered(&engine->cells, engine->itinerary[i].cell, step, i, list);
 	candidates = sift(engine, i, list, candidates, &plan);
 	if (engine->captured) candidates = without_captured(engine, i, list, candidates);
 	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);
-}
-
-/* How long after its last event a particle passes a face `gap` ahead of where that event left it, under constant
- * acceleration, if it does so after `passed`; INFINITY if it does not. */
-static double crossing_time(double gap, double speed, double acceleration, double passed)
-{
-	if (acceleration == 0) return speed > 0 ? gap / speed : INFINITY;
-	double radicand = speed * speed + 2 * acceleration * gap;
-	if (radicand < 0 || (radicand == 0 && acceleration < 0)) /* out of reach, or a touch that goes no further */
-		return acceleration < 0 ? INFINITY : fmax(passed, -speed / acceleration);
-	double end = sqrt(radicand);
-	double time = speed > 0 ? 2 * gap / (speed + end) : (end - speed) / acceleration;
-	if (time >= passed) return time;
-	double gap_now = gap - passed * (speed + acceleration / 2 * passed);
-	return gap_now <= 0 && speed + acceleration * passed > 0 ? passed : INFINITY;
-}
-
-/* How long after its last event a particle leaves its cell along an axis, and whether by the upper face. */
-static double leaving_along(const struct touchstone_engine *engine, uint32_t i, int axis, bool *upper)
-{
-	const struct body *body = &engine->body[i];
-	double side = engine->cell_side[axis], speed = to_double(body->velocity[axis]);
-	double position = to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
-	int cell = engine->itinerary[i].cell[axis];
-	bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
-	bool closed_low = ends && cell == 1, closed_high = ends && cell == engine->cells.count[axis];
-	double low = (cell - 1) * side - engine->box[axis] / 2, high = low + side;
-	if (!engine->accelerated) { /* without branches that a processor would have to guess */
-		*upper = speed > 0;
-		double time = ((cell - 1 + *upper) * side - engine->box[axis] / 2 - position) / speed;
-		bool never = (*upper ? closed_high : closed_low) | (speed == 0);
-		return never ? INFINITY : time;
-	}
-	double gravity = to_double(engine->acceleration[axis]), passed = engine->itinerary[i].entered;
-	double up = INFINITY, down = INFINITY;
-	if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
-	if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
-	*upper = up < down;
-	return *upper ? up : down;
-}
-
-/* How long after its last event a particle leaves the cell it is in, and by which face; INFINITY if it never does. */
-static double leaving_wait(const struct touchstone_engine *engine, uint32_t i, uint8_t *next)
-{
-	double soonest = INFINITY;
-	int face = 0;
-	for (int axis = 0; axis < engine->dimensions; axis++) {
-		bool upper;
-		double time = leaving_along(engine, i, axis, &upper);
-		face = time < soonest ? 1 + 2 * axis + upper : face;
-		soonest = time < soonest ? time : soonest;
-	}
-	*next = (uint8_t)face;
-	return soonest;
-}
-
-/* The same as a moment: page, and time since it began. In double for every arithmetic: the cells' slack pays for the
- * rounding. */
-static double leaving(const struct touchstone_engine *engine, uint32_t i, double *page, uint8_t *next)
-{
-	if (!engine->cells.entry) return INFINITY;
-	double soonest = leaving_wait(engine, i, next) + to_double(engine->body[i].time), begins = engine->body[i].page;
-	if (engine->uneven) {
-		begins = floor(begins * engine->pages_per_time) * engine->page_length;
-		soonest += engine->body[i].page - begins;
-	}
-	double pages = soonest * engine->pages_per_time;
-	if (!(pages < 0x1p52) || soonest == INFINITY) return INFINITY;
-	double turned = pages > 0 ? (double)(int64_t)pages * engine->page_turn : 0;
-	*page = begins + turned;
-	return soonest - turned;
 }
 
 static bool note_holds(const void *context, struct note note)
@@ -272,6 +207,14 @@ static struct entry entry_of(const void *context, struct note note)
 	return (struct entry){itinerary->time, note, itinerary->partner, UINT32_C(1) + itinerary->meets};
 }
 
+static void note_ahead(const void *context, struct note note)
+{
+	const struct touchstone_engine *engine = context;
+	__builtin_prefetch(&engine->body[note.particle], 1);
+	__builtin_prefetch(&engine->place[note.particle]);
+	if (engine->shadows.shadow) __builtin_prefetch(&engine->shadows.shadow[note.particle], 1);
+}
+
 static bool entry_first(const void *context, const struct entry *a, const struct entry *b)
 {
 	if (less(a->time, b->time)) return true;
@@ -279,22 +222,6 @@ static bool entry_first(const void *context, const struct entry *a, const struct
 	if (!a->kind || !b->kind) return a->kind < b->kind;
 	return rank_of(context, a->note.particle, a->partner, (uint8_t)(a->kind - 1)) <
 		   rank_of(context, b->note.particle, b->partner, (uint8_t)(b->kind - 1));
-}
-
-/* Does a straight flight end inside the cell it is in? Then no face is passed before, and when is no matter. */
-static bool stays(const struct touchstone_engine *engine, uint32_t i, double flight)
-{
-	const struct body *body = &engine->body[i];
-	const struct place *place = &engine->place[i];
-	if (engine->accelerated) return false;
-	bool inside = true;
-	for (int axis = 0; axis < engine->dimensions; axis++) {
-		double place_at = place->index[axis] * engine->place_width[axis] + engine->box[axis] / 2;
-		double end = to_double(body->position[axis]) + place_at + to_double(body->velocity[axis]) * flight;
-		double beyond = end - (engine->itinerary[i].cell[axis] - 1) * engine->cell_side[axis];
-		inside &= (beyond > 0) & (beyond < engine->cell_side[axis]);
-	}
-	return inside;
 }
 
 /* Puts the next thing that happens to a particle on the agenda. What was there for it no longer holds. */

@@ -130,6 +130,13 @@ INLINE float latest_of(const struct sieve *sieve, float latest, lanes high, cons
 	return soonest < latest ? soonest : latest;
 }
 
+/* Which pairs are surely beyond what is heard. */
+INLINE flags unheard(const struct sieve *sieve, const struct others *o, lanes square, const struct steps *step)
+{
+	lanes farthest = square * (sieve->heard * sieve->heard);
+	return step->less(error_of_c(sieve, o, farthest), o->rr - farthest);
+}
+
 static const uint32_t all_lanes = (1u << LANES) - 1;
 
 INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, uint32_t *entry, size_t count,
@@ -145,10 +152,13 @@ INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint3
 		lanes q = error_of_c(sieve, &others, square), error_b = error_of_b(sieve, &others);
 		struct meeting meeting = meeting_of(&others, others.rr - square, q, error_b, &step);
 		flags out = ~step.less(number, zero + (float)(count - k)) | meeting.misses;
+		if (sieve->heard > 0)
+			out &= ~step.less(number, zero + (float)(count - k)) | unheard(sieve, &others, square, &step);
 		if (step.bits(out) == all_lanes) continue;
 		if (sieve->by_order) {
 			latest = latest_of(sieve, latest, pick(meeting.sure & ~out, meeting.high, never), &step);
-			out |= step.less(zero + latest, meeting.low);
+			flags late = step.less(zero + latest, meeting.low);
+			out |= sieve->heard > 0 ? late & unheard(sieve, &others, square, &step) : late;
 		}
 		kept += step.pack(~step.bits(out) & all_lanes, entry + k, entry + kept);
 	}
@@ -357,19 +367,21 @@ AVX512 static size_t hold_512(const struct sieve *sieve, const struct shadow *sh
 }
 #endif
 
+#include "engine/sieve_check.inl"
+
 const struct sieve_machine *sieve_machine(size_t number)
 {
-	static const struct sieve_machine any = {"portable", pass_any, hold_any, cast_any};
+	static const struct sieve_machine any = {"portable", pass_any, hold_any, check_any, cast_any};
 #ifdef __x86_64__
-	static const struct sieve_machine avx512 = {"AVX-512", pass_512, hold_512, cast_avx2},
-									  avx2 = {"AVX2", pass_avx2, hold_avx2, cast_avx2};
+	static const struct sieve_machine avx512 = {"AVX-512", pass_512, hold_512, check_512, cast_avx2},
+									  avx2 = {"AVX2", pass_avx2, hold_avx2, check_avx2, cast_avx2};
 	bool fair = __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 	bool fast = fair && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
 				__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
 	if (fast && number-- == 0) return &avx512;
 	if (fair && number-- == 0) return &avx2;
 #elif defined __wasm_simd128__
-	static const struct sieve_machine simd = {"WebAssembly SIMD", pass_128, hold_128, cast_any};
+	static const struct sieve_machine simd = {"WebAssembly SIMD", pass_128, hold_128, check_128, cast_any};
 	if (number-- == 0) return &simd;
 #endif
 	return number == 0 ? &any : NULL;

@@ -43,6 +43,7 @@ struct sieve {
 	float roundoff; /* of the working arithmetic: n */
 	float drift;    /* error of its flights, as a time */
 	float latest;   /* meetings surely later are of no interest; INFINITY for none */
+	float heard;    /* pairs no farther apart than so many times their contact distance pass in any case; 0: none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
 	bool images;    /* whether any entry may be an image */
 };
@@ -60,6 +61,12 @@ struct held {
 	const float *outer, *inner; /* inner: 0 where there is nothing to meet */
 };
 
+/* Looks over `count` pairs, where `outer` may be INFINITY: writes the numbers of those that are not surely nearer than
+ * `outer` and farther than `inner`, in their order, to `kept`, which has room for 16 more, and returns how many there
+ * are. Sure is |r.r - s^2| > E_c. */
+typedef size_t sieve_check(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
+						   const struct held *held, size_t count, uint32_t *kept);
+
 /* The same for `count` pairs of this kind, by order always: writes the numbers of those whose event may come first to
  * `kept`, which has room for 16 more, and returns how many there are. When a pair parts, the root of a t^2 + 2 b t + c
  * with c < 0, falls as any of a, b and c grows, so that their errors bound it: E_c, E_b, and (16 u + 8 n) S^2 of a. */
@@ -76,6 +83,7 @@ struct sieve_machine {
 	const char *name;
 	sieve_pass *pass;
 	sieve_hold *hold;
+	sieve_check *check;
 	sieve_cast *cast;
 };
 const struct sieve_machine *sieve_machine(size_t number);

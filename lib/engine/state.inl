@@ -172,6 +172,8 @@ struct touchstone_engine {
 	double reach;                /* largest distance at which anything happens to a pair */
 	double slack;                /* how much wider than `reach` a cell must be for rounding not to matter */
 	double cell_side[3];
+	double stray[3]; /* how far beyond the faces of its cell a particle goes before it leaves it */
+	bool strays;     /* whether that is far, in straight flights */
 	struct cells cells;
 	uint32_t *candidate[2]; /* entries that a search has listed; two searches may be under way */
 	struct shadows shadows;
@@ -185,12 +187,10 @@ struct touchstone_engine {
 	char reason[160];
 	uint32_t blamed[2];
 	const struct touchstone_observer *observer;
-	bool executing;            /* whether the search at hand follows an event */
-	touchstone_tested *tested; /* told of the pairs it tests; NULL: nobody is */
-	void *tested_context;
-	double tested_reach;      /* times the outermost step */
-	const num *tested_offset; /* of the pair that is being told of: first minus second; NULL: none is */
-	uint32_t touching[2];     /* the pair whose event it is while an observer is called */
+	bool executing;                       /* whether the search at hand follows an event */
+	struct touchstone_listener *listener; /* told of the pairs it tests; NULL: nobody is */
+	const num *tested_offset;             /* of the pair that is being told of: first minus second; NULL: none is */
+	uint32_t touching[2];                 /* the pair whose event it is while an observer is called */
 	int touching_image[3];
 	num touching_distance;
 };

@@ -1,72 +1,170 @@
-/* What an observer of tests is told: the pairs that a search after an event asks about. The sieve does not come into
- * it, since it leaves out pairs that part, whatever state they are in. */
+/* What a listener is told: the pairs that a search after an event asks about. For its sake the sieve lets all pass that
+ * are near enough, also those that part. And of these, pairs whose shadows say surely that they are where their state
+ * has them, and not near a step, are counted and not worked out. */
 
-/* Whether an entry may be within the observer's reach, by its shadow, which is off by far less than the margin.
- * Particle i's own shadow is as of now. */
-static bool may_be_near(const struct touchstone_engine *engine, uint32_t i, uint32_t entry)
+/* Tells of one pair, if it counts and the listener wants to know. */
+static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t entry, uint32_t state)
 {
-	const struct shadows *shadows = &engine->shadows;
-	if (!shadows->shadow) return true;
-	const struct shadow *mine = &shadows->shadow[i], *other = &shadows->shadow[entry_particle(entry)];
-	float flight = mine->time - other->time, square = 0,
-		  near = (float)(1.05 * engine->tested_reach * engine->reach * shadows->per_length);
-	near += 0x1p-18f * shadows->sieve.boxes;
-	for (int axis = 0; axis < 3; axis++) {
-		float shift = (float)entry_image(entry, axis) * shadows->sieve.box[axis];
-		float offset = mine->position[axis] - (other->position[axis] + shift + other->velocity[axis] * flight);
-		square += offset * offset;
-	}
-	return !(square > near * near);
-}
-
-/* Tells of one pair, unless it is in the outermost state and beyond the observer's reach. */
-static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
-{
+	struct touchstone_listener *listener = engine->listener;
 	uint32_t j = entry_particle(entry), nearest = 0;
 	const struct potential *potential = potential_between(engine, i, j);
 	if (!potential || !potential->step_count) return;
 	struct balls balls;
 	relative_state(engine, i, entry, balls.r, balls.v);
 	num square = dot(balls.r, balls.r);
-	double excess = INFINITY;
+	double farthest = to_double(potential->step[0].distance) * listener->reach, excess = INFINITY;
+	if (state == 0 && to_double(square) > farthest * farthest) return;
+	listener->tests++;
 	for (uint32_t s = 0; s < potential->step_count; s++) {
 		num limit = mul(potential->step[s].distance, potential->step[s].distance);
 		double beyond = to_double(divide(sub(square, limit), limit));
 		if (fabs(beyond) < fabs(excess)) excess = beyond, nearest = s;
 	}
-	uint32_t state = pairs_get(&engine->pairs, i, entry), first = engine->itinerary[i].id;
-	uint32_t second = engine->itinerary[j].id;
-	double farthest = to_double(potential->step[0].distance) * engine->tested_reach;
-	if (state == 0 && to_double(square) > farthest * farthest) return;
+	uint32_t within = state_at(potential, square), first = engine->itinerary[i].id, second = engine->itinerary[j].id;
+	if (fabs(excess) > listener->margin && within == state) return;
 	for (int axis = 0; first > second && axis < engine->dimensions; axis++) balls.r[axis] = negated(balls.r[axis]);
 	struct touchstone_test test = {
 		.first = first < second ? first : second,
 		.second = first < second ? second : first,
 		.state = (int)state,
-		.within = (int)state_at(potential, square),
+		.within = (int)within,
 		.step = (int)nearest,
 		.excess = excess,
 	};
 	engine->tested_offset = balls.r;
 	engine->touching_distance = potential->step[nearest].distance;
-	engine->tested(engine->tested_context, engine, &test);
+	listener->tested(listener->context, engine, &test);
 	engine->tested_offset = NULL;
+}
+
+/* ------------------------------------------------------------------ what shadows say */
+
+enum { HEARD = 64 };
+
+/* Up to HEARD entries of one particle, and the distances between which there is nothing to tell of them. */
+struct bounds {
+	uint32_t entry[HEARD + 16];
+	float inner[HEARD + 16], outer[HEARD + 16];
+};
+
+/* Of `count` entries of particle i, writes the numbers of those that may not be within their bounds, in their order. */
+static size_t out_of_bounds(struct touchstone_engine *engine, uint32_t i, const uint32_t *entry,
+							const struct bounds *bounds, size_t count, uint32_t kept[HEARD + 16])
+{
+	struct shadows *shadows = &engine->shadows;
+	struct held held = {entry, bounds->outer, bounds->inner};
+	shadows->sieve.images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
+	return shadows->machine->check(&shadows->sieve, shadows->shadow, i, &held, count, kept);
+}
+
+/* Whether all that particle i has captured is surely so near that it counts by its distance alone, as it will be unless
+ * the method misses events. */
+static bool keeps_captured(struct touchstone_engine *engine, uint32_t i)
+{
+	uint32_t kept[HEARD + 16], count, some;
+	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
+	struct bounds bounds;
+	bool keeps = true;
+	for (; count && keeps; captured += some, count -= some) {
+		some = count < HEARD ? count : HEARD;
+		for (uint32_t k = 0; k < some + 16; k++) {
+			const struct potential *potential =
+				potential_between(engine, i, entry_particle(captured[k < some ? k : 0].entry));
+			double farthest = to_double(potential->step[0].distance) * engine->listener->reach;
+			bounds.entry[k] = captured[k < some ? k : 0].entry;
+			bounds.inner[k] = 0;
+			bounds.outer[k] = (float)(farthest * engine->shadows.per_length);
+		}
+		keeps = !out_of_bounds(engine, i, bounds.entry, &bounds, some, kept);
+	}
+	return keeps;
+}
+
+/* Whether the sieve will let everything pass that is to be told of these particles, and has been told to. */
+static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *particle, int particles)
+{
+	if (!engine->shadows.shadow) return false;
+	for (int p = 0; p < particles; p++)
+		if (!keeps_captured(engine, particle[p])) return false;
+	engine->shadows.sieve.heard = (float)(engine->listener->reach * (1 + 0x1p-20));
+	return true;
+}
+
+/* ------------------------------------------------------------------ the tests after an event */
+
+/* Some of those that particle i is tested against. */
+struct tests {
+	uint32_t count, state[HEARD];
+	struct bounds bounds;
+};
+
+static inline void add_test(const struct touchstone_engine *engine, uint32_t i, uint32_t entry, uint32_t state,
+							struct tests *tests)
+{
+	const struct potential *potential = potential_between(engine, i, entry_particle(entry));
+	if (!potential || !potential->step_count) return;
+	double margin = engine->listener->margin, unit = engine->shadows.per_length, inner = 0, outer = INFINITY;
+	if (state < potential->step_count)
+		inner = to_double(potential->step[state].distance) * (state ? 1 + margin : engine->listener->reach) * unit;
+	if (state) outer = margin < 1 ? to_double(potential->step[state - 1].distance) * (1 - margin) * unit : 0;
+	uint32_t k = tests->count++;
+	tests->state[k] = state;
+	tests->bounds.entry[k] = entry;
+	tests->bounds.inner[k] = (float)inner;
+	tests->bounds.outer[k] = (float)outer;
+}
+
+/* Tells what there is to tell of them, and counts the others that are in a state. */
+static void tell_some(struct touchstone_engine *engine, uint32_t i, struct tests *tests)
+{
+	uint32_t kept[HEARD + 16], count = tests->count;
+	size_t left = count, at = 0;
+	tests->count = 0;
+	if (!count) return;
+	for (uint32_t k = 0; k < count; k++) kept[k] = k;
+	for (uint32_t k = count; k < count + 16; k++)
+		tests->bounds.entry[k] = i, tests->bounds.inner[k] = tests->bounds.outer[k] = 1;
+	if (engine->shadows.shadow) left = out_of_bounds(engine, i, tests->bounds.entry, &tests->bounds, count, kept);
+	for (uint32_t k = 0; k < count; k++)
+		if (at < left && kept[at] == k)
+			tell_test(engine, i, tests->bounds.entry[k], tests->state[k]), at++;
+		else
+			engine->listener->tests += tests->state[k] > 0;
+}
+
+/* The state of particle i and an entry, while the partners it has captured are marked. */
+static inline uint32_t marked_state(const struct touchstone_engine *engine, uint32_t i, uint32_t entry,
+									const struct pair_state *captured)
+{
+	uint16_t mark = engine->captured[entry_particle(entry)];
+	if (!mark) return 0;
+	return captured[mark - 1].entry == entry ? captured[mark - 1].state : pairs_get(&engine->pairs, i, entry);
+}
+
+/* Tells of what particle i is tested against, but for another that has been told of. */
+static void tell_tests_of(struct touchstone_engine *engine, uint32_t i, const uint32_t *list, size_t candidates,
+						  uint32_t but)
+{
+	uint32_t count;
+	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
+	struct tests tests;
+	tests.count = 0;
+	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = (uint16_t)(k + 1);
+	for (size_t k = 0; k < candidates; k++) {
+		if (entry_particle(list[k]) == but) continue;
+		add_test(engine, i, list[k], marked_state(engine, i, list[k], captured), &tests);
+		if (tests.count == HEARD) tell_some(engine, i, &tests);
+	}
+	tell_some(engine, i, &tests);
+	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = 0;
 }
 
 /* Tells of all that the particles of an event may meet next: each pair once. */
 static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
 					   const size_t candidates[2], int particles)
 {
-	for (int p = 0; p < particles; p++) {
-		uint32_t i = particle[p], captured;
-		pairs_of(&engine->pairs, i, &captured);
-		for (size_t k = 0; k < candidates[p]; k++) {
-			uint32_t entry = list[p][k];
-			if (p == 1 && entry_particle(entry) == particle[0]) continue;
-			if (may_be_near(engine, i, entry) || (captured && pairs_get(&engine->pairs, i, entry)))
-				tell_test(engine, i, entry);
-		}
-	}
+	tell_tests_of(engine, particle[0], list[0], candidates[0], particle[0]);
+	if (particles > 1) tell_tests_of(engine, particle[1], list[1], candidates[1], particle[0]);
 }
 
 /* The offset at hand as exact sums of doubles, filled with zeros; returns how many there are per axis. */

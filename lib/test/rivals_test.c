@@ -129,12 +129,14 @@ static void tests_are_told(void **state)
 	for (int k = 0; k < 2; k++) {
 		struct run run = begin(&recipe, "binary64", "stable");
 		struct audience audience = {.scene = &run.scene, .reach = k ? INFINITY : 1.02};
-		touchstone_observe_tests(run.engine, hear, audience.reach, &audience);
+		struct touchstone_listener listener = {hear, &audience, audience.reach, INFINITY, 0};
+		touchstone_observe_tests(run.engine, &listener);
 		touchstone_run(run.engine, &(struct touchstone_limits){2000, INFINITY, NULL},
 					   &(struct touchstone_observer){see, &audience});
 		assert_true(audience.events == 2000 && audience.states > 1000);
+		assert_true(listener.tests == audience.tests);
 		told[k] = (double)audience.tests;
-		touchstone_observe_tests(run.engine, NULL, 0, NULL);
+		touchstone_observe_tests(run.engine, NULL);
 		digest[k] = advance(&run, 1000).digest;
 		assert_true(audience.events == 2000);
 		end(&run);

@@ -21,7 +21,7 @@ struct unit {
 	bool (*rescale)(struct touchstone_engine *, int exponent);
 	void (*state)(const struct touchstone_engine *, uint32_t particle, double position[3], double velocity[3]);
 	double (*temperature)(const struct touchstone_engine *, uint32_t particle);
-	void (*observe_tests)(struct touchstone_engine *, touchstone_tested *, double reach, void *context);
+	void (*observe_tests)(struct touchstone_engine *, struct touchstone_listener *);
 	int (*separation)(const struct touchstone_engine *, double terms[3][3 * TOUCHSTONE_MOST_TERMS],
 					  double contact[TOUCHSTONE_MOST_TERMS]);
 	size_t (*overlaps)(const struct touchstone_engine *, uint32_t particle, struct touchstone_overlap *, size_t room);

@@ -2,8 +2,8 @@
 // Cold is blue, hot red; the deeper an overlap (tenfold a seventh of the way), the more of yellow becomes magenta.
 precision highp float;
 in vec2 at;
-in float warmth, inside, edge;
-uniform vec3 cold, mild, hot;
+in float warmth, inside, fade, edge;
+uniform vec3 cold, mild, hot, sheet;
 out vec4 color;
 
 void main()
@@ -16,5 +16,5 @@ void main()
 		heat = mix(vec3(1.0, 0.78, 0.0), vec3(0.86, 0.0, 0.72), level);
 		cover = max(cover, 0.5 * (1.0 - smoothstep(1.5, 1.6 + edge, r)));
 	}
-	color = vec4(heat * cover, cover);
+	color = vec4(mix(heat, sheet, fade) * cover, cover);
 }

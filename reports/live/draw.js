@@ -1,101 +1,106 @@
-// Discs on a canvas: by WebGL2, all at once, or where there is none by an ordinary canvas.
-const floatsPerDisc = 5;
-
-function palette() {
-	const style = getComputedStyle(document.documentElement);
-	return ["cold", "mild", "hot", "sheet"].map(name => style.getPropertyValue("--" + name).trim());
-}
+// Discs on a canvas, in one of three ways that look alike: by a graphics card; where there is none, by setting pixels
+// from masks drawn beforehand, which takes a tenth of the time that software takes to be a graphics card; and large
+// discs by an ordinary canvas. A disc is x, y, radius, warmth, depth of overlap, fade (verify/live/view.h).
+const floatsPerDisc = 6, largestMask = 24; // pixels
 
 function channels(color) {
-	return [1, 3, 5].map(k => parseInt(color.slice(k, k + 2), 16) / 255);
+	return [1, 3, 5].map(k => parseInt(color.slice(k, k + 2), 16));
 }
 
-function compile(gl) {
-	const program = gl.createProgram();
-	for (const [kind, id] of [[gl.VERTEX_SHADER, "vertex"], [gl.FRAGMENT_SHADER, "fragment"]]) {
-		const shader = gl.createShader(kind);
-		gl.shaderSource(shader, document.getElementById(id).textContent.trimStart());
-		gl.compileShader(shader);
-		if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
-		gl.attachShader(program, shader);
-	}
-	gl.linkProgram(program);
-	return program;
+// The page's colours, read anew when they change: asking the style sheet for them takes long.
+let colors;
+function palette() {
+	const style = colors || getComputedStyle(document.documentElement);
+	return colors ||= Object.fromEntries(["cold", "mild", "hot", "sheet", "soft"].map(name =>
+		[name, channels(style.getPropertyValue("--" + name).trim())]));
+}
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => colors = null);
+
+function blend(from, to, part) {
+	return from.map((channel, k) => channel + (to[k] - channel) * part);
 }
 
-function drawByGpu(canvas, gl) {
-	const program = compile(gl), buffer = gl.createBuffer();
-	const place = name => gl.getUniformLocation(program, name);
-	const uniforms = Object.fromEntries(["half_box", "shift", "pixel", "cold", "mild", "hot"].map(name => [name, place(name)]));
-	gl.useProgram(program);
-	gl.enable(gl.BLEND);
-	gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-	gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-	for (const [name, size, offset] of [["disc", 4, 0], ["depth", 1, 16]]) {
-		const attribute = gl.getAttribLocation(program, name);
-		gl.enableVertexAttribArray(attribute);
-		gl.vertexAttribPointer(attribute, size, gl.FLOAT, false, 4 * floatsPerDisc, offset);
-		gl.vertexAttribDivisor(attribute, 1);
-	}
-	return (discs, world) => {
-		const [cold, mild, hot] = palette();
-		gl.viewport(0, 0, canvas.width, canvas.height);
-		gl.clearColor(0, 0, 0, 0);
-		gl.clear(gl.COLOR_BUFFER_BIT);
-		gl.bufferData(gl.ARRAY_BUFFER, discs, gl.DYNAMIC_DRAW);
-		gl.uniform2f(uniforms.half_box, world.width / 2, world.height / 2);
-		gl.uniform1f(uniforms.pixel, world.width / canvas.width);
-		gl.uniform3fv(uniforms.cold, channels(cold));
-		gl.uniform3fv(uniforms.mild, channels(mild));
-		gl.uniform3fv(uniforms.hot, channels(hot));
-		for (const shift of world.periodic ? [0, -world.width, world.width] : [0]) { // ghosts across the seam
-			gl.uniform1f(uniforms.shift, shift);
-			gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, discs.length / floatsPerDisc);
-		}
-	};
+const shallow = [255, 199, 0], deep = [219, 0, 184];
+
+// The colour of a disc, as red, green and blue.
+function colorOf(warmth, depth, fade) {
+	const { cold, mild, hot, sheet } = palette();
+	if (depth > 0) return blend(shallow, deep, Math.min(Math.max((Math.log10(depth) + 7) / 6, 0), 1));
+	return blend(warmth < 0.5 ? blend(cold, mild, 2 * warmth) : blend(mild, hot, 2 * warmth - 1), sheet, fade);
 }
 
-function mixed(from, to, part) {
-	const [a, b] = [channels(from), channels(to)];
-	return `rgb(${a.map((channel, k) => Math.round(255 * (channel + (b[k] - channel) * part)))})`;
+// What overlaps is drawn wide enough to be seen at any size.
+function outerRadius(radius, depth) {
+	return depth > 0 ? Math.max(1.6 * radius, 5) : Math.max(radius, 0.75);
 }
 
-function drawByHand(canvas) {
-	const context = canvas.getContext("2d");
-	return (discs, world) => {
-		const [cold, mild, hot] = palette(), scale = canvas.width / world.width;
-		const shades = Array.from({ length: 17 }, (_, k) => k < 8 ? mixed(cold, mild, k / 8) : mixed(mild, hot, (k - 8) / 8));
-		context.clearRect(0, 0, canvas.width, canvas.height);
-		const disc = (x, y, radius, color) => {
-			context.fillStyle = color;
+function drawPaths(canvas, context, discs, world) {
+	const scale = canvas.width / world.width;
+	context.fillStyle = `rgb(${palette().sheet})`;
+	context.fillRect(0, 0, canvas.width, canvas.height);
+	for (let k = 0; k < discs.length; k += floatsPerDisc) {
+		const x = (discs[k] - world.x) * scale + canvas.width / 2, y = canvas.height / 2 - (discs[k + 1] - world.y) * scale;
+		const radius = discs[k + 2] * scale, depth = discs[k + 4];
+		const circle = wide => {
 			context.beginPath();
-			context.arc(x, y, radius, 0, 2 * Math.PI);
+			context.arc(x, y, wide, 0, 2 * Math.PI);
 			context.fill();
 		};
-		for (let k = 0; k < discs.length; k += floatsPerDisc) {
-			const [x, y, radius, warmth, depth] = discs.subarray(k, k + floatsPerDisc);
-			const level = Math.min(Math.max((Math.log10(depth) + 7) / 6, 0), 1);
-			const color = depth > 0 ? mixed("#ffc700", "#db00b8", level) : shades[Math.round(16 * warmth)];
-			const wide = depth > 0 ? Math.max(radius * scale * 1.3, 4) : Math.max(radius * scale, 0.75);
-			const px = (x + world.width / 2) * scale, py = canvas.height - (y + world.height / 2) * scale;
-			disc(px, py, wide, color);
-			if (!world.periodic) continue;
-			if (px < wide) disc(px + canvas.width, py, wide, color);
-			if (px > canvas.width - wide) disc(px - canvas.width, py, wide, color);
+		context.fillStyle = `rgb(${colorOf(discs[k + 3], depth, discs[k + 5]).map(Math.round)})`;
+		if (depth > 0) {
+			context.globalAlpha = 0.5;
+			circle(outerRadius(radius, depth));
+			context.globalAlpha = 1;
 		}
+		circle(Math.max(radius, 0.75));
+	}
+}
+
+function largestRadius(discs) {
+	let largest = 0;
+	for (let k = 2; k < discs.length; k += floatsPerDisc) if (discs[k] > largest) largest = discs[k];
+	return largest;
+}
+
+function drawBySoftware(canvas) {
+	const context = canvas.getContext("2d", { alpha: false }), setPixels = pixelSetter(canvas, context);
+	return (discs, world) => {
+		const small = largestRadius(discs) * canvas.width / world.width <= largestMask;
+		(small ? setPixels : drawPaths.bind(null, canvas, context))(discs, world);
 	};
 }
 
-// What draws on a canvas: a function of discs and world, {width, height, periodic}.
-function drawer(canvas, plain) {
-	const gl = plain ? null : canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true });
-	canvas.dataset.drawn = gl ? "webgl2" : "2d";
-	return gl ? drawByGpu(canvas, gl) : drawByHand(canvas);
+// Whether there is a graphics card, and not software in its place, which browsers do not always own up to.
+function hasCard() {
+	const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+	if (!gl) return false;
+	const unmasked = gl.getExtension("WEBGL_debug_renderer_info"), name = gl.getParameter(unmasked?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER);
+	gl.getExtension("WEBGL_lose_context")?.loseContext();
+	return !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
-// As many pixels as the screen has for it.
-function fit(canvas) {
-	const density = window.devicePixelRatio || 1, box = canvas.getBoundingClientRect();
-	const width = Math.max(1, Math.round(box.width * density)), height = Math.max(1, Math.round(box.height * density));
-	if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+// What draws on a canvas: a function of discs and world, the part of the plane to be seen {x, y, width, height}. The
+// `way` may be said: "2d", or "webgl" even by software.
+function drawer(canvas, way) {
+	const wanted = way === "webgl" || !way && hasCard();
+	const gl = wanted ? canvas.getContext("webgl2", { antialias: false, alpha: false }) : null;
+	canvas.dataset.drawn = gl ? "webgl2" : "2d";
+	return gl ? drawByCard(canvas, gl) : drawBySoftware(canvas);
+}
+
+// Keeps a canvas at as many pixels as the screen has for it, whatever the zoom; `changed` is told.
+function fit(canvas, changed) {
+	const whole = new ResizeObserver(([entry]) => {
+		const density = window.devicePixelRatio || 1, exact = entry.devicePixelContentBoxSize?.[0], box = entry.contentRect;
+		const width = Math.max(1, Math.round(exact ? exact.inlineSize : box.width * density));
+		const height = Math.max(1, Math.round(exact ? exact.blockSize : box.height * density));
+		if (canvas.width === width && canvas.height === height) return;
+		[canvas.width, canvas.height] = [width, height];
+		changed();
+	});
+	try {
+		whole.observe(canvas, { box: "device-pixel-content-box" });
+	} catch {
+		whole.observe(canvas);
+	}
 }

@@ -1,7 +1,8 @@
 // The page: starts what the address asks for, asks the worker for pictures, draws them, and heeds the controls.
 const at = id => document.getElementById(id);
-let scenes, methods, settings, worker, draw = [], world, latest = null, fresh = false, busy = false, started = false;
-let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, frames = [], shownCounts = 0, restarts = 0;
+let scenes, methods, settings, worker, draw = [], latest = null, fresh = false, busy = false, started = false;
+let world, seen, walls = [], ring = 0; // what part of the plane is in sight, and what stands in it
+let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, shownCounts = 0, restarts = 0;
 
 function say(lines) {
 	at("notes").replaceChildren(...lines.map(line => {
@@ -39,7 +40,7 @@ function showControls() {
 	at("nitems").value = s.nitems;
 	at("nitems").disabled = s.scene.given;
 	at("length").value = s.length;
-	at("length").disabled = s.scene.dimensions === 1;
+	at("length").closest("label").hidden = s.scene.dimensions !== 2 || s.scene.given;
 	at("seed").value = s.seed;
 	at("speed").value = s.speed;
 	showSpeed();
@@ -82,32 +83,24 @@ function start(query) {
 	settings.panes.forEach((pane, p) => at(`caption-${p}`).dataset.name = paneName(pane));
 	at("pane-1").hidden = settings.panes.length < 2;
 	at("heat").textContent = settings.scene.name === "convection" ? "cold to hot" : "slow to fast";
-	layOutCounts(settings.panes);
-	started = false;
+	layOutCounts(settings.panes, settings.scene);
+	started = fresh = false;
+	latest = null;
 	busy = true;
-	frames = [];
-	document.documentElement.dataset.longest = document.documentElement.dataset.work = 0;
+	pace.restart();
 	const { panes, index, width, height, nitems, seed } = settings;
 	worker.postMessage({ type: "start", panes, scene: index, width, height, nitems, seed });
 }
 
-// How the box lies on the canvas: as it is, or a line across it or up it.
-function makeWorld({ box, periodic, walls }) {
-	const line = settings.scene.dimensions === 1, upright = settings.scene.upright, long = box[0];
-	world = line ? upright ? { width: Math.max(3, long / 3), height: long } : { width: long, height: Math.max(1.6, long / 6) }
-		: { width: box[0], height: box[1] };
-	Object.assign(world, { periodic: periodic[0] && !line, upright: line && upright });
-	[0, 1].forEach(p => {
-		const stage = at(`canvas-${p}`).parentElement;
-		stage.style.setProperty("--ratio", world.width / world.height);
-		stage.querySelectorAll("i").forEach(wall => wall.remove());
-		stage.append(...walls.map(wall => {
-			const mark = document.createElement("i");
-			mark.className = upright ? "floor" : "side";
-			mark.style.setProperty("--at", `${100 * (0.5 + wall / long)}%`);
-			return mark;
-		}));
-	});
+function makeWorld(opened) {
+	const { scene } = settings;
+	({ walls, ring } = opened);
+	seen = null;
+	world = scene.follows ? null : boxedWorld(scene, opened.box);
+	const ratio = world ? world.width / world.height : followingRatio(scene);
+	document.documentElement.style.setProperty("--ratio", ratio);
+	at("look").textContent = lookOf(scene, ring);
+	[0, 1].forEach(p => delete at(`marks-${p}`).dataset.key);
 }
 
 function begun(message) {
@@ -129,25 +122,30 @@ function begun(message) {
 }
 
 function picture(message) {
+	if (!started) return; // of the run before
 	busy = false;
 	latest = message;
 	fresh = true;
-	if (world.upright)
-		for (const { discs } of latest.views)
-			for (let k = 0; k < discs.length; k += floatsPerDisc) [discs[k], discs[k + 1]] = [0, discs[k]];
+	if (settings.scene.follows) {
+		seen = follow(seen, enclosing(latest.views.map(view => view.bounds)));
+		world = frameOf(seen || [-2, 2, -2, 2], followingRatio(settings.scene));
+	}
 	if (message.reached) setPlaying(false);
 	at("pace").textContent = message.arrived ? "" : "slower than asked: the engine takes longer than a picture";
 }
 
-function showPicture(now) {
-	if (!fresh) return;
-	fresh = false;
-	latest.views.forEach(({ discs }, p) => {
+function drawViews() {
+	latest.views.forEach((view, p) => {
 		const canvas = at(`canvas-${p}`);
-		draw[p] ||= drawer(canvas, settings.plain);
-		fit(canvas);
-		draw[p](discs, world);
+		draw[p] ||= drawer(canvas, settings.draw);
+		draw[p](view.discs, world);
+		drawMarks(at(`marks-${p}`), canvas, world, walls, ring, view);
 	});
+}
+
+function showPicture(now) {
+	fresh = false;
+	drawViews();
 	if (playing && now - shownCounts < 150) return;
 	shownCounts = now;
 	writeCaptions(latest.views);
@@ -156,24 +154,21 @@ function showPicture(now) {
 	if (!playing) writeLog(latest.views);
 }
 
+// The worker is asked for the next picture before the last one is drawn, so that both are at work.
 function frame(now) {
 	requestAnimationFrame(frame);
-	const begun = performance.now();
-	if (playing && !document.hidden) frames.push(now);
-	if (frames.length > 120) frames.shift();
-	const root = document.documentElement.dataset, longest = frames.reduce((most, t, k) => k ? Math.max(most, t - frames[k - 1]) : 0, 0);
-	root.longest = Math.max(root.longest || 0, frames.length > 60 ? longest : 0).toFixed(1);
-	root.rate = frames.length > 1 ? (1000 * (frames.length - 1) / (frames.at(-1) - frames[0])).toFixed(1) : "";
-	showPicture(now);
-	root.work = Math.max(root.work || 0, performance.now() - begun).toFixed(1);
-	if (!playing || busy || !started) return;
-	busy = true;
-	worker.postMessage({ type: "go", span: settings.rate * 2 ** settings.speed, most: settings.events });
+	const begun = performance.now(), drawn = fresh;
+	if (playing && !busy && started) {
+		busy = true;
+		worker.postMessage({ type: "go", span: settings.rate * 2 ** settings.speed, most: settings.events });
+	}
+	if (drawn) showPicture(now);
+	if (playing && !document.hidden) pace.note(now, drawn, performance.now() - begun);
 }
 
 function step() {
 	setPlaying(false);
-	frames = [];
+	pace.restart();
 	if (busy || !started) return;
 	busy = true;
 	worker.postMessage({ type: "step" });
@@ -181,7 +176,7 @@ function step() {
 
 function togglePause() {
 	setPlaying(!playing);
-	frames = [];
+	pace.restart();
 	if (!playing && latest) writeLog(latest.views);
 	if (playing && settings.events < Infinity && latest?.reached) settings.events = Infinity;
 }
@@ -209,7 +204,7 @@ function listen() {
 		event.preventDefault();
 		key();
 	});
-	addEventListener("resize", () => fresh = latest !== null);
+	[0, 1].forEach(p => fit(at(`canvas-${p}`), () => latest && drawViews())); // at once, for a new size is blank
 	matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => fresh = latest !== null);
 }
 

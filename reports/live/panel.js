@@ -1,13 +1,15 @@
 // What is written beside the pictures: captions, counts, the horizon, the last events.
 const verdicts = ["", "collapsed: events go on but time does not", "halted: no answer for the state it is in", "diverged"];
 const rows = [
-	["time", "Time", c => c.time.toPrecision(8)],
+	["time", "Time", c => c.time.toPrecision(Math.abs(c.time) < 1e5 ? 8 : 12)],
 	["events", "Events", c => show(c.events)],
 	["collisions", "Collisions", c => show(c.collisions)],
+	["states", "Captures, releases, turned back", c => `${show(c.captures)}, ${show(c.releases)}, ${show(c.bounces)}`],
+	["captured", "Captured pairs now", c => show(c.captured)],
 	["pace", "Collisions per second of computing", c => show(Math.round(c.pace))],
 	["energy", "Energy", c => c.energy.toPrecision(7)],
 	["kicked", "of which kicks brought in", c => c.kicked ? c.kicked.toPrecision(7) : "–"],
-	["momentum", "Momentum", c => `(${c.momentum_x.toPrecision(3)}, ${c.momentum_y.toPrecision(3)})`],
+	["momentum", "Momentum", c => `(${[c.momentum_x, c.momentum_y, c.momentum_z].map(part => part.toPrecision(3)).join(", ")})`],
 	["overlapping", "Overlapping now", c => show(c.overlapping)],
 	["entangled", "Entangled", c => show(c.entangled)],
 	["deepest", "Deepest overlap, now and ever", c => `${share(c.deepest)}, ${share(c.deepest_ever)}`],
@@ -21,6 +23,10 @@ const rows = [
 	["digest", "Digest", c => c.digest],
 ];
 
+// Which of them a scene has something to say in.
+let told = rows;
+const ofStates = new Set(["states", "captured"]);
+
 function share(depth) {
 	return depth === 0 ? "none" : `${(100 * depth).toPrecision(2)} %`;
 }
@@ -33,7 +39,8 @@ function paneName(pane) {
 	return `${pane.method} in ${pane.arithmetic}`;
 }
 
-function layOutCounts(panes) {
+function layOutCounts(panes, scene) {
+	told = rows.filter(([name]) => scene.states || !ofStates.has(name));
 	const table = document.getElementById("counts");
 	table.replaceChildren();
 	const head = table.createTHead().insertRow();
@@ -44,7 +51,7 @@ function layOutCounts(panes) {
 		head.append(cell);
 	}
 	const body = table.createTBody();
-	for (const [name, label] of rows) {
+	for (const [name, label] of told) {
 		const row = body.insertRow(), th = document.createElement("th");
 		th.scope = "row";
 		th.textContent = label;
@@ -57,7 +64,7 @@ const alarming = new Set(["overlapping", "entangled", "dropped", "repeated", "pa
 
 function writeCounts(views) {
 	views.forEach(({ counts }, p) => {
-		for (const [name, , say] of rows) {
+		for (const [name, , say] of told) {
 			const cell = document.getElementById(`${name}-${p}`);
 			cell.textContent = say(counts);
 			cell.classList.toggle("alarm", alarming.has(name) && counts[name] > 0
@@ -98,6 +105,16 @@ function writeCaptions(views) {
 		const state = ended || (counts.overlapping ? `${show(counts.overlapping)} pairs inside one another` : "");
 		caption.textContent = `${caption.dataset.name}${state ? ": " + state : ""}`;
 		caption.classList.toggle("alarm", counts.verdict >= 2 || counts.overlapping > 0);
-		canvas.setAttribute("aria-label", `${caption.textContent}. ${show(counts.particles)} discs at t = ${counts.time.toPrecision(4)}`);
+		canvas.setAttribute("aria-label", `${caption.textContent}. ${show(counts.particles)} particles at t = ${counts.time.toPrecision(4)}`);
 	});
+}
+
+// What else is to be seen, for the legend.
+function lookOf(scene, ring) {
+	const words = [];
+	if (scene.dimensions === 3)
+		words.push("Three dimensions, seen along the third: nearer spheres cover those behind them, which fade; overlaps are drawn on top.");
+	if (scene.follows) words.push("There is no box: the picture follows the particles.");
+	if (ring) words.push(`Rings (where they are not too many) touch where two are at the step, at a distance of ${show(2 * ring)}. Captured pairs are joined, up to 1000 of them.`);
+	return words.join(" ");
 }

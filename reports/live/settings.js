@@ -50,9 +50,9 @@ function readAgainst(word, left, methods, notes) {
 
 // In few bits the engine must look at every pair, so that there may be only few.
 function mostDiscs(scene, width, height, panes) {
-	const longest = Math.max(width, height), limit = packing[scene.name] ?? 0.6;
-	let most = scene.dimensions === 2 ? Math.floor(limit / covered * width * height) : 500, why = "";
-	if (scene.dimensions === 2) why = `packing limited to ${limit * 100} %`;
+	const plane = scene.dimensions === 2, longest = Math.max(width, height), limit = packing[scene.name] ?? 0.6;
+	let most = plane ? Math.floor(limit / covered * width * height) : scene.dimensions === 3 ? 32000 : 500;
+	let why = plane ? `packing limited to ${limit * 100} %` : "";
 	if (most > 100000) [most, why] = [100000, "no more are drawn"];
 	for (const { arithmetic } of panes) {
 		const bits = /^short:(\d+)$/.exec(arithmetic);
@@ -60,6 +60,11 @@ function mostDiscs(scene, width, height, panes) {
 		if (reach > longest / 6 && most > 1000) [most, why] = [1000, `${arithmetic} has to look at every pair`];
 	}
 	return [Math.max(most, 1), why];
+}
+
+// As many as the scene's file has, of which 500 show as much in the page; of discs in a plane one for an area of 6.
+function usualDiscs(scene, width, height) {
+	return scene.dimensions === 2 ? Math.max(1, Math.floor(width * height / 6)) : Math.min(scene.particles, 500);
 }
 
 function readSettings(query, scenes, methods, screenRatio) {
@@ -73,8 +78,8 @@ function readSettings(query, scenes, methods, screenRatio) {
 		arithmetic: readArithmetic(query.get("arithmetic"), "binary64", "arithmetic", notes) };
 	const right = readAgainst(query.get("against"), left, methods, notes), panes = right ? [left, right] : [left];
 	const [most, why] = mostDiscs(scene, width, height, panes);
-	const usual = scene.dimensions === 2 ? Math.floor(width * height / 6) : scene.particles;
-	let nitems = within(query, "nitems", 1, most, Math.min(Math.max(usual, 1), most), notes, true);
+	const usual = usualDiscs(scene, width, height);
+	let nitems = within(query, "nitems", 1, most, Math.min(usual, most), notes, true);
 	if (scene.given) nitems = scene.particles;
 	else if (notes.at(-1)?.startsWith("nitems") && why) notes.push(notes.pop() + ` (${why})`);
 	else if (usual > most) notes.push(`nitems: it is ${show(most)} (${why})`);
@@ -83,7 +88,7 @@ function readSettings(query, scenes, methods, screenRatio) {
 		rate: within(query, "rate", 1e-6, 10, 0.05, notes),
 		events: within(query, "events", 0, 1e12, Infinity, notes, true),
 		speed: within(query, "speed", -8, 6, 0, notes, true),
-		paused: query.has("paused"), plain: query.get("draw") === "2d" };
+		paused: query.has("paused"), draw: oneOf(query.get("draw"), ["2d", "webgl"], "", "draw", notes) };
 }
 
 // The address of these settings; what is usual is said too, so that a link means the same on another screen.
@@ -93,6 +98,6 @@ function writeSettings(s) {
 		against: s.panes[1] ? `${s.panes[1].method}@${s.panes[1].arithmetic}` : "nothing", speed: s.speed });
 	if (s.events < Infinity) query.set("events", s.events);
 	if (s.paused) query.set("paused", "");
-	if (s.plain) query.set("draw", "2d");
+	if (s.draw) query.set("draw", s.draw);
 	return "?" + query;
 }

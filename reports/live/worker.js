@@ -1,8 +1,9 @@
 // The engine's side: owns the WebAssembly, runs both panes to the same simulated time, and answers with pictures.
-const names = ["events", "collisions", "time", "energy", "momentum_x", "momentum_y", "kicked", "overlapping", "entangled",
-	"dropped", "repeated", "parting", "backwards", "deepest", "deepest_ever", "first_failure", "first_sight", "verdict",
-	"digest_high", "digest_low", "particles", "memory", "three_body"];
-const perDisc = 5, budget = 11; // milliseconds of running in a picture
+const names = ["events", "collisions", "time", "energy", "momentum_x", "momentum_y", "momentum_z", "kicked", "overlapping",
+	"entangled", "dropped", "repeated", "parting", "backwards", "deepest", "deepest_ever", "first_failure", "first_sight",
+	"verdict", "digest_high", "digest_low", "particles", "three_body", "captures", "releases", "bounces", "captured",
+	"discs", "lines"];
+const perDisc = 6, perLine = 4, budget = 11; // milliseconds of running in a picture
 let engine, panes = 0, until = 0;
 let ran = []; // of each pane: milliseconds of running, and events
 
@@ -25,7 +26,7 @@ async function load(bytes) {
 	for (let s = 0, at; (at = engine.live_scene_name(s)); s++) {
 		const fact = f => engine.live_scene_fact(s, f);
 		scenes.push({ name: read(at), title: read(engine.live_scene_title(s)), dimensions: fact(0), particles: fact(1),
-			given: fact(2) === 1, upright: fact(3) === 1 });
+			given: fact(2) === 1, upright: fact(3) === 1, follows: fact(4) === 1, states: fact(5) === 1 });
 	}
 	for (let m = 0, at; (at = engine.live_method(m)); m++) methods.push(read(at));
 	postMessage({ type: "ready", scenes, methods });
@@ -33,7 +34,7 @@ async function load(bytes) {
 
 function start(asked) {
 	engine.live_close();
-	panes = until = 0;
+	panes = 0;
 	ran = asked.panes.map(() => ({ time: 0, events: 0 }));
 	const opened = { type: "started", placed: [] };
 	for (const [p, pane] of asked.panes.entries()) {
@@ -50,9 +51,13 @@ function start(asked) {
 	if (opened.error) panes = 0;
 	else {
 		opened.box = [engine.live_box(0, 0), engine.live_box(0, 1)];
-		opened.periodic = [engine.live_periodic(0, 0), engine.live_periodic(0, 1)];
+		opened.ring = engine.live_ring(0);
 		opened.walls = [];
-		for (let w = 0; w < engine.live_wall_count(0); w++) opened.walls.push(engine.live_wall(0, w));
+		for (let w = 0; w < engine.live_wall_count(0); w++) {
+			const at = engine.live_wall(0, w);
+			if (at) opened.walls.push([...new Float64Array(engine.memory.buffer, at, 4)]);
+		}
+		until = engine.live_time(0);
 	}
 	postMessage(opened);
 	if (panes) picture(true, false);
@@ -76,7 +81,7 @@ function go({ span, most }) {
 	let arrived = true, reached = most < Infinity;
 	for (let p = 0; p < panes; p++) {
 		arrived = advance(p, until + span, most, deadline + p * budget) && arrived;
-		reached = reached && ran[p].events >= most;
+		reached = reached && (ran[p].events >= most || engine.live_ended(p) === 1);
 	}
 	if (arrived) until += span;
 	picture(arrived, reached);
@@ -93,15 +98,17 @@ function step() {
 function picture(arrived, reached) {
 	const views = [], buffers = [];
 	for (let p = 0; p < panes; p++) {
-		const at = engine.live_look(p), counts = {};
+		if (!engine.live_look(p)) throw new Error("not enough memory");
 		const numbers = new Float64Array(engine.memory.buffer, engine.live_counts(p), names.length);
-		names.forEach((name, k) => counts[name] = numbers[k]);
-		const discs = new Float32Array(engine.memory.buffer, at, counts.particles * perDisc).slice();
+		const counts = Object.fromEntries(names.map((name, k) => [name, numbers[k]]));
+		const copy = (at, count) => new Float32Array(engine.memory.buffer, at, count).slice();
+		const discs = copy(engine.live_discs(p), counts.discs * perDisc), lines = copy(engine.live_lines(p), counts.lines * perLine);
+		const bounds = [...new Float64Array(engine.memory.buffer, engine.live_bounds(p), 4)];
 		counts.digest = [counts.digest_high, counts.digest_low].map(half => half.toString(16).padStart(8, "0")).join("");
 		counts.pace = ran[p].time > 0 ? counts.collisions / ran[p].time * 1000 : 0;
 		const [reason, ...log] = read(engine.live_tell(p)).split("\n");
-		views.push({ discs, counts, reason, log });
-		buffers.push(discs.buffer);
+		views.push({ discs, lines, bounds, counts, reason, log });
+		buffers.push(discs.buffer, lines.buffer);
 	}
 	postMessage({ type: "picture", views, horizon: engine.live_horizon(), until, arrived, reached }, buffers);
 }

@@ -64,6 +64,7 @@ static void live_page_is_linked_where_it_is(void **state)
 	result_live(result, "See & believe", "scene=gas&against=binary32");
 	struct result_table table = result_table(result, "Cells", NULL, (const char *const[]){"a", "b", NULL});
 	table_text(table, "<halts>"), table_live(table, "scene=gas&method=naive"), table_link(table, "told");
+	table_unseen(table, "not live: <it>");
 	table_text(table, "touchstone run gas --seed 2"), table_anchor(table, "told");
 	put(result, stored);
 	for (int there = 0; there < 2; there++) {
@@ -76,6 +77,8 @@ static void live_page_is_linked_where_it_is(void **state)
 		linked = strstr(text, "<a class=\"watch\" href=\"../live.html?scene=gas&amp;method=naive\">watch it</a>");
 		assert_int_equal(linked, there);
 		assert_int_equal(strstr(text, "live.html") != NULL, there);
+		linked = strstr(text, "</a> <span class=\"unseen\">not live: &lt;it&gt;</span>");
+		assert_int_equal(linked, there);
 		assert_non_null(strstr(text, "<a href=\"shown.html#cell-told\">&lt;halts&gt;</a>"));
 		assert_non_null(strstr(
 			text,

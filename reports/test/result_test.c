@@ -180,6 +180,7 @@ static void unsound_results_are_refused(void **state)
 	expect_noticed("tables/0/rows/3/1", "{\"text\": 1, \"level\": 0}", "tables[0]: row 3, column 1");
 	expect_noticed("tables/0/rows/3/1", "{\"text\": \"\", \"anchor\": \"a b\"}", "tables[0]: row 3, column 1");
 	expect_noticed("tables/0/rows/3/1", "{\"text\": \"\", \"live\": \"a=\\\"\"}", "tables[0]: row 3, column 1");
+	expect_noticed("tables/0/rows/3/1", "{\"text\": \"\", \"unseen\": 1}", "tables[0]: row 3, column 1");
 	expect_noticed("tables/0/rows/3/1", "{\"text\": \"\", \"link\": \"x\"}",
 				   "tables[0]: row 3, column 1: a link to 'x', and no cell is so named");
 	expect_noticed("figures/0/x", "{}", "figures[0]: ");

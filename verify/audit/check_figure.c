@@ -1,4 +1,4 @@
-/* Checks of the papers' figures: what is measured for their claims, at quick size. */
+/* Checks of the papers' figures: what is measured for their claims. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -71,8 +71,12 @@ bool check_figure(const struct suite_check *check, uint64_t seed, int threads, s
 				  char error[STORE_ERROR])
 {
 	struct progress progress = progress_begin(check->name, "%");
-	const struct figure_setup setup = {
-		.seed = seed, .threads = threads, .stop = interrupt_flag(), .progress = show, .context = &progress};
+	const struct figure_setup setup = {.full = check->full,
+									   .seed = seed,
+									   .threads = threads,
+									   .stop = interrupt_flag(),
+									   .progress = show,
+									   .context = &progress};
 	const struct figure_entry *figure = figures;
 	while (strcmp(figure->name, check->figure) != 0) figure++; /* the suite's reader has seen that there is one */
 	struct result *result = figure->make(&setup, error);

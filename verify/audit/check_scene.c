@@ -36,9 +36,9 @@ static bool run(const struct suite_check *check, const char *arithmetic, uint64_
 		.path = check->scene,
 		.file = file,
 		.limits = file->limits,
-		.impact = !arithmetic && measures(check, SCENE_BELOW_CONTACT, SCENE_DEEPEST),
-		.conservation = !arithmetic && measures(check, SCENE_ENERGY_DRIFT, SCENE_MOMENTUM_DRIFT),
 	};
+	if (!arithmetic && measures(check, SCENE_BELOW_CONTACT, SCENE_DEEPEST)) plan.measures |= RUN_IMPACT;
+	if (!arithmetic && measures(check, SCENE_ENERGY_DRIFT, SCENE_MOMENTUM_DRIFT)) plan.measures |= RUN_CONSERVATION;
 	if (share < 1) {
 		file->equilibrate *= share;
 		plan.limits.time *= share;

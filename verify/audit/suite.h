@@ -35,6 +35,7 @@ struct suite_check {
 	enum touchstone_shape shape;
 	uint64_t cases;
 	const char *figure;
+	bool full; /* at the paper's own size, not at the quick one */
 	struct suite_measure *measures;
 	size_t measure_count;
 	char *definition; /* what exactly is measured, without names, weights and thresholds */

@@ -89,6 +89,9 @@ static bool understand_figure(const struct suite_place *place, const struct chec
 {
 	char shown[TEXT_SHOWN];
 	check->figure = words->figure;
+	check->full = words->size && strcmp(words->size, "full") == 0;
+	if (words->size && !check->full && strcmp(words->size, "quick") != 0)
+		return suite_refuse(place, "size", "'%s'; accepted: quick, full", text_shown(shown, words->size));
 	for (const struct figure_entry *figure = figures; figure->name; figure++)
 		if (strcmp(figure->name, words->figure) == 0) return true;
 	return suite_refuse(place, "figure", "'%s'; accepted: one that `touchstone list figures` has",
@@ -102,10 +105,9 @@ static bool refuse_strangers(const struct suite_place *place, const struct check
 		const char *key;
 		const void *word;
 		unsigned kinds; /* bit 1 << kind for those that it belongs to */
-	} keys[] = {{"events", words->events, 1}, {"set", words->set, 1},
-				{"method", words->method, 1}, {"arithmetic", words->arithmetic, 3},
-				{"family", words->family, 2}, {"shape", words->shape, 2},
-				{"cases", words->cases, 2}};
+	} keys[] = {{"events", words->events, 1},         {"set", words->set, 1},       {"method", words->method, 1},
+				{"arithmetic", words->arithmetic, 3}, {"family", words->family, 2}, {"shape", words->shape, 2},
+				{"cases", words->cases, 2},           {"size", words->size, 4}};
 	static const char *const kinds[CHECK_KINDS] = {"scene", "grade", "figure"};
 	for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
 		if (keys[k].word && !(keys[k].kinds & 1u << kind))
@@ -123,7 +125,7 @@ static bool define(const struct suite_place *place, const struct check_words *wo
 	if (check->kind == CHECK_GRADE)
 		fprintf(stream, "grade %s in %s, %s, %s, %llu cases", check->method, check->arithmetic, check->family->name,
 				shape_name(check->shape), (unsigned long long)check->cases);
-	if (check->kind == CHECK_FIGURE) fprintf(stream, "figure %s", check->figure);
+	if (check->kind == CHECK_FIGURE) fprintf(stream, "figure %s%s", check->figure, check->full ? " at full size" : "");
 	fprintf(stream, ", %llu seeds", (unsigned long long)check->seeds);
 	return fclose(stream) == 0 || suite_refuse(place, "", "out of memory");
 }

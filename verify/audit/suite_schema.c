@@ -38,6 +38,7 @@ static const cyaml_schema_field_t check_fields[] = {
 	CYAML_FIELD_STRING_PTR("shape", WORD, struct check_words, shape, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("cases", WORD, struct check_words, cases, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("figure", WORD, struct check_words, figure, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_STRING_PTR("size", WORD, struct check_words, size, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("measures", WORD, struct check_words, measures, &measure, 1, 100),
 	CYAML_FIELD_END};
 static const cyaml_schema_value_t check = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct check_words, check_fields)};

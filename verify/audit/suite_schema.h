@@ -13,7 +13,7 @@ struct check_words {
 	char *name, *weight, *seeds, *seed;
 	char *scene, *events, *method, *arithmetic, **set;
 	char *grade, *family, *shape, *cases;
-	char *figure;
+	char *figure, *size;
 	struct measure_words *measures;
 	unsigned set_count, measures_count;
 };

@@ -8,20 +8,17 @@
 
 #include "campaign/yaml_flow.h"
 #include "command/cases.h"
+#include "command/run_measures.h"
 #include "command/simulation.h"
 #include "store/yaml_schema.h"
 
 /* `set`, `grid` and `seeds` are read from the document itself: their keys are those of a scene. */
 struct campaign_words {
-	char *title, *about, *scene, *events, *time;
-	int *measures;
+	char *title, *about, *scene, *events, *time, *against, **measures;
 	unsigned measures_count;
 };
 
-enum { MEASURE_IMPACT, MEASURE_CONSERVATION };
-static const cyaml_strval_t measures[] = {{"impact", MEASURE_IMPACT}, {"conservation", MEASURE_CONSERVATION}};
-static const cyaml_schema_value_t measure = {
-	CYAML_VALUE_ENUM(CYAML_FLAG_STRICT, int, measures, CYAML_ARRAY_LEN(measures))};
+static const cyaml_schema_value_t measure = {CYAML_VALUE_STRING(CYAML_FLAG_POINTER, char, 0, CYAML_UNLIMITED)};
 
 enum { WORD = CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL };
 static const cyaml_schema_field_t fields[] = {
@@ -33,7 +30,8 @@ static const cyaml_schema_field_t fields[] = {
 	CYAML_FIELD_IGNORE("seeds", CYAML_FLAG_OPTIONAL),
 	CYAML_FIELD_STRING_PTR("events", WORD, struct campaign_words, events, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_STRING_PTR("time", WORD, struct campaign_words, time, 0, CYAML_UNLIMITED),
-	CYAML_FIELD_SEQUENCE("measures", WORD, struct campaign_words, measures, &measure, 0, 2),
+	CYAML_FIELD_STRING_PTR("against", WORD, struct campaign_words, against, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_SEQUENCE("measures", WORD, struct campaign_words, measures, &measure, 0, 100),
 	CYAML_FIELD_END};
 static const cyaml_schema_value_t schema = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct campaign_words, fields)};
 
@@ -208,6 +206,22 @@ static bool read_seeds(struct campaign_file *file, char *error)
 	return file->seed_count > 0 || refuse(file, error, "seeds", "none; accepted: 1..20 or [1, 5, 9]");
 }
 
+static bool read_measures(struct campaign_file *file, char *error)
+{
+	const struct campaign_words *words = file->source->words;
+	for (unsigned m = 0; m < words->measures_count; m++) {
+		char place[40], shown[TEXT_SHOWN], names[RUN_MEASURE_NAMES];
+		unsigned measure = run_measure_named(words->measures[m]);
+		snprintf(place, sizeof place, "measures[%u]", m);
+		if (!measure)
+			return refuse(file, error, place, "'%s' is unknown; accepted: %s", text_shown(shown, words->measures[m]),
+						  run_measure_names(names));
+		file->measures |= measure;
+	}
+	file->against = words->against;
+	return true;
+}
+
 static bool find_scene(struct campaign_file *file, const char *path, const char *cases, char *error)
 {
 	const char *name = file->source->words->scene, *slash = strrchr(path, '/');
@@ -258,6 +272,8 @@ static bool check_points(const struct campaign_file *file, char *error)
 		struct scene_file *scene = campaign_file_scene(file, point, settings, wrong);
 		good = scene && simulation_names(scene, wrong);
 		if (!good) blame(file, point, wrong, error);
+		if (good && file->against && !horizon_possible(scene->arithmetic, file->against, wrong))
+			good = refuse(file, error, "against", "%s", wrong);
 		if (good && scene->limits.events == UINT64_MAX && scene->limits.time == INFINITY)
 			good = refuse(file, error, "events", "not given, nor in the scene; accepted: events, time, or both");
 		scene_file_close(scene);
@@ -273,12 +289,8 @@ static bool understand(struct campaign_file *file, const char *path, const char 
 	if (!source->words) return refuse(file, error, "", "empty; accepted: scene, grid, seeds, events, measures");
 	file->title = source->words->title ? source->words->title : file->name;
 	file->about = source->words->about ? source->words->about : "";
-	for (unsigned m = 0; m < source->words->measures_count; m++) {
-		file->impact |= source->words->measures[m] == MEASURE_IMPACT;
-		file->conservation |= source->words->measures[m] == MEASURE_CONSERVATION;
-	}
-	return find_scene(file, path, cases, error) && read_settings(file, error) && read_grid(file, error) &&
-		   read_seeds(file, error) && check_points(file, error);
+	return read_measures(file, error) && find_scene(file, path, cases, error) && read_settings(file, error) &&
+		   read_grid(file, error) && read_seeds(file, error) && check_points(file, error);
 }
 
 /* The name becomes that of files and pages. */

@@ -31,8 +31,9 @@ struct campaign_file {
 	size_t axis_count;
 	uint64_t *seeds;
 	size_t seed_count;
-	size_t points; /* of the grid */
-	bool impact, conservation;
+	size_t points;                  /* of the grid */
+	unsigned measures;              /* of enum run_measure (command/run_measures.h) */
+	const char *against;            /* a finer arithmetic to find horizons with, or NULL */
 	struct campaign_source *source; /* where each key was said */
 };
 

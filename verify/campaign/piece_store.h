@@ -20,7 +20,8 @@ struct piece_store;
 
 /* Opens a store for writing, made if need be; or for reading what there is, and then `path` must be there and may be
  * in use. `campaign` is its name; NULL, for reading: any. NULL with one line in `error` when it is no store, or that of
- * another campaign, or of a newer version, or contradicts itself, or another program is writing to it. */
+ * another campaign, or of a newer version, or contradicts itself, or another program is writing to it. One whose first
+ * line is not there yet, for its writer was killed, is read as a store of no pieces, and of no campaign. */
 struct piece_store *piece_store_open(const char *path, const char *campaign, char error[512]);
 struct piece_store *piece_store_read(const char *path, const char *campaign, char error[512]);
 
@@ -28,7 +29,7 @@ struct piece_store *piece_store_read(const char *path, const char *campaign, cha
 size_t piece_store_note_count(const struct piece_store *store);
 const char *piece_store_note(const struct piece_store *store, size_t number);
 
-const char *piece_store_campaign(const struct piece_store *store);
+const char *piece_store_campaign(const struct piece_store *store); /* NULL: not written yet */
 
 /* All of its lines, an object of key and line ("key", "revision", "result"); and one result, NULL when it is not there.
  * Both belong to the store. */

@@ -141,6 +141,7 @@ static int tell(const struct wish *wish, const struct campaign_file *file, const
 	{
 		const char *verdict = json_string_value(json_object_get(run, "verdict"));
 		broken |= verdict && (strcmp(verdict, "halted") == 0 || strcmp(verdict, "diverged") == 0);
+		broken |= json_is_false(json_object_get(json_object_get(run, "failure"), "survived"));
 	}
 	json_decref(telling);
 	json_decref(points);
@@ -279,7 +280,8 @@ int command_campaign(int argc, char **argv)
 			"is still missing and writes the tables. With Open MPI: `mpirun -n K touchstone campaign FILE` makes a run "
 			"on "
 			"each rank at a time; a rank that dies ends the job, and calling it again makes what is missing.\n\n"
-			"Exit status: 0 all runs done or collapsed; 1 one has halted or diverged; 2 bad input, or a run that could "
+			"Exit status: 0 all runs done or collapsed; 1 one has halted or diverged, or a failure was measured; 2 bad "
+			"input, or a run that could "
 			"not begin; 130 interrupted, what was finished by then is kept.\n\n"
 			"Example: touchstone campaign restitution-density --threads 2",
 	};

@@ -6,8 +6,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const verdicts[] = {"done", "collapsed", "halted", "diverged"};
-enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
+#include "command/run_measures.h"
+
+/* What runs come to, of which points tell how many did: their verdicts, and two more that not every campaign finds out.
+ */
+enum { VERDICTS = 4, SURVIVED = VERDICTS, NEVER_PARTED, ENDINGS };
+static const char *const endings[ENDINGS] = {"done", "collapsed", "halted", "diverged", "survived", "never parted"};
+
+static bool finds_out(const struct campaign_file *file, int ending)
+{
+	return ending < VERDICTS || (ending == SURVIVED && file->measures & RUN_FAILURE) ||
+		   (ending == NEVER_PARTED && file->against);
+}
+
+static bool came_to(const json_t *run, int ending)
+{
+	const char *verdict = json_string_value(json_object_get(run, "verdict"));
+	if (ending == SURVIVED) return json_is_true(json_object_get(json_object_get(run, "failure"), "survived"));
+	if (ending == NEVER_PARTED) return json_is_false(json_object_get(run, "horizon_differs"));
+	return verdict && strcmp(verdict, endings[ending]) == 0;
+}
 
 /* Members that are no measure: what they say stands in the grid's columns, or is the same for all runs. */
 static bool is_measure(const char *name)
@@ -75,12 +93,14 @@ static void add_values(json_t *row, const struct campaign_file *file, size_t poi
 json_t *campaign_table_runs(const struct campaign_file *file, const json_t *results)
 {
 	static const char *const words[] = {"seed", "verdict", "digest"};
+	bool judged = file->measures & RUN_FAILURE;
 	json_t *names = json_object(), *all = flatten_all(results, names), *result, *value;
 	json_t *columns = json_array(), *rows = json_array();
 	const char *name;
 	size_t r;
 	add_keys(columns, file);
 	for (int w = 0; w < 3; w++) heading(columns, words[w], "");
+	if (judged) heading(columns, "failure", "");
 	json_object_foreach(names, name, value) heading(columns, name, "");
 	json_array_foreach(results, r, result)
 	{
@@ -88,6 +108,7 @@ json_t *campaign_table_runs(const struct campaign_file *file, const json_t *resu
 		json_t *row = json_array(), *flat = json_array_get(all, r);
 		add_values(row, file, r / file->seed_count);
 		for (int w = 0; w < 3; w++) json_array_append(row, json_object_get(result, words[w]));
+		if (judged) json_array_append(row, json_object_get(json_object_get(result, "failure"), "what"));
 		json_object_foreach(names, name, value)
 		{
 			json_t *number = json_object_get(flat, name);
@@ -113,17 +134,18 @@ static void add_spread(json_t *row, const json_t *all, size_t first, size_t coun
 	json_array_append_new(row, json_integer((json_int_t)there));
 }
 
-/* How many runs of a point there are, and how many ended in each way. */
-static void add_verdicts(json_t *row, const json_t *results, size_t first, size_t count)
+/* How many runs of a point there are, and how many came to each ending. */
+static void add_endings(json_t *row, const struct campaign_file *file, const json_t *results, size_t point)
 {
-	json_int_t ended[VERDICTS] = {0}, runs = 0;
-	for (size_t r = first; r < first + count; r++) {
-		const char *verdict = json_string_value(json_object_get(json_array_get(results, r), "verdict"));
-		runs += verdict != NULL;
-		for (int v = 0; verdict && v < VERDICTS; v++) ended[v] += strcmp(verdict, verdicts[v]) == 0;
+	json_int_t ended[ENDINGS] = {0}, runs = 0;
+	for (size_t r = point * file->seed_count; r < (point + 1) * file->seed_count; r++) {
+		const json_t *run = json_array_get(results, r);
+		runs += json_is_object(run);
+		for (int e = 0; e < ENDINGS; e++) ended[e] += came_to(run, e);
 	}
 	json_array_append_new(row, json_integer(runs));
-	for (int v = 0; v < VERDICTS; v++) json_array_append_new(row, json_integer(ended[v]));
+	for (int e = 0; e < ENDINGS; e++)
+		if (finds_out(file, e)) json_array_append_new(row, json_integer(ended[e]));
 }
 
 json_t *campaign_table_points(const struct campaign_file *file, const json_t *results)
@@ -134,7 +156,8 @@ json_t *campaign_table_points(const struct campaign_file *file, const json_t *re
 	const char *name;
 	add_keys(columns, file);
 	heading(columns, "runs", "");
-	for (int v = 0; v < VERDICTS; v++) heading(columns, verdicts[v], "");
+	for (int e = 0; e < ENDINGS; e++)
+		if (finds_out(file, e)) heading(columns, endings[e], "");
 	json_object_foreach(names, name, value)
 	{
 		heading(columns, name, "");
@@ -144,7 +167,7 @@ json_t *campaign_table_points(const struct campaign_file *file, const json_t *re
 	for (size_t point = 0; values && point < file->points; point++) {
 		json_t *row = json_array();
 		add_values(row, file, point);
-		add_verdicts(row, results, point * file->seed_count, file->seed_count);
+		add_endings(row, file, results, point);
 		json_object_foreach(names, name, value)
 			add_spread(row, all, point * file->seed_count, file->seed_count, name, values);
 		json_array_append_new(rows, row);
@@ -163,6 +186,13 @@ static const struct telling {
 	{"impact.exact.deviation_ulp", "spread at impact / ulp"},
 	{"conservation.energy_drift_per_million", "energy drift per 10^6 collisions"},
 	{"conservation.momentum_drift_per_million", "momentum drift per 10^6 collisions"},
+	{"three_body.contacts", "contacts"},
+	{"three_body.events", "of them three-body"},
+	{"states.executed.count", "inconsistent when executed"},
+	{"states.others.count", "other pairs inconsistent"},
+	{"states.repeats", "events repeated"},
+	{"failure.event", "first event that fails"},
+	{"horizon", "horizon / events per particle"},
 	{"collisions_per_second", "collisions/s"},
 };
 enum { TELLINGS = sizeof tellings / sizeof *tellings };
@@ -190,7 +220,8 @@ static json_t *spread_text(const json_t *row, size_t column)
 json_t *campaign_table_telling(const struct campaign_file *file, const json_t *points)
 {
 	json_t *columns = json_array(), *rows = json_array(), *from;
-	size_t r, fixed = file->axis_count + 1 + VERDICTS, column[TELLINGS];
+	size_t r, fixed = file->axis_count + 1, column[TELLINGS];
+	for (int e = 0; e < ENDINGS; e++) fixed += finds_out(file, e);
 	for (size_t c = 0; c < fixed; c++)
 		json_array_append(columns, json_array_get(json_object_get(points, "columns"), c));
 	for (int t = 0; t < TELLINGS; t++) {

@@ -147,8 +147,10 @@ void campaigning_key(void *context, size_t piece, char key[CAMPAIGN_KEY])
 	for (size_t s = 0; s < file->setting_count; s++) fprintf(stream, " %s", file->settings[s]);
 	for (size_t axis = 0; axis < file->axis_count; axis++)
 		fprintf(stream, " %s", file->axes[axis].settings[campaign_file_choice(file, point_of(all, piece), axis)]);
-	fprintf(stream, "%s%s seed=%" PRIu64, file->impact ? " measure=impact" : "",
-			file->conservation ? " measure=conservation" : "", seed_of(all, piece));
+	for (const struct run_measure_entry *entry = run_measures; entry->name; entry++)
+		if (file->measures & entry->measure) fprintf(stream, " measure=%s", entry->name);
+	if (file->against) fprintf(stream, " against=%s", file->against);
+	fprintf(stream, " seed=%" PRIu64, seed_of(all, piece));
 	putc('\0', stream);
 	fclose(stream);
 	key[CAMPAIGN_KEY - 1] = '\0';
@@ -211,8 +213,8 @@ json_t *campaigning_make(void *context, size_t piece, const struct campaign_watc
 			.limits = scene->limits,
 			.settings = settings,
 			.setting_count = file->setting_count + file->axis_count,
-			.impact = file->impact,
-			.conservation = file->conservation,
+			.measures = file->measures,
+			.against = file->against,
 		};
 		struct simulation_progress progress = {.runs = 1, .tell = tell, .context = (void *)watch};
 		struct outcome outcome;

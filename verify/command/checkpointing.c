@@ -91,6 +91,7 @@ static bool fill(const struct checkpointing *checkpointing, struct checkpoint *c
 	const struct run_plan *plan = checkpointing->plan;
 	struct outcome *outcome = checkpointing->outcome;
 	uint64_t measuring = checkpointing->measuring;
+	unsigned measured = measuring ? plan->measures : 0;
 	snprintf(checkpoint->program, CHECKPOINT_NAME, "%s", argp_program_version);
 	snprintf(checkpoint->scene, CHECKPOINT_NAME, "%s", plan->file->name);
 	snprintf(checkpoint->arithmetic, CHECKPOINT_NAME, "%s", plan->file->arithmetic);
@@ -101,9 +102,9 @@ static bool fill(const struct checkpointing *checkpointing, struct checkpoint *c
 	if (measuring) outcome->wall_seconds = progress_clock() - outcome->clock_begun;
 	return touchstone_save(checkpointing->simulation->engine, &checkpoint->state) &&
 		   put(checkpoint, "measuring", TOUCHSTONE_COUNTS, 1, &measuring) && each_of_run(outcome, put, checkpoint) &&
-		   (!measuring || !plan->conservation || each_sum(&outcome->conserved[0], put, checkpoint)) &&
-		   (!measuring || !plan->impact || each_impact(outcome->impact, put, checkpoint)) &&
-		   (!measuring || !plan->three_body || each_three_body(&outcome->three_body, put, checkpoint));
+		   (!(measured & RUN_CONSERVATION) || each_sum(&outcome->conserved[0], put, checkpoint)) &&
+		   (!(measured & RUN_IMPACT) || each_impact(outcome->impact, put, checkpoint)) &&
+		   (!(measured & RUN_THREE_BODY) || each_three_body(&outcome->three_body, put, checkpoint));
 }
 
 static void write_one(void *context)
@@ -125,15 +126,13 @@ void checkpointing_begin(struct checkpointing *checkpointing, bool measuring)
 {
 	checkpointing->measuring = measuring;
 	if (!checkpointing->plan->checkpoint) return;
-	struct simulation *simulation = checkpointing->simulation;
-	simulation->every = checkpointing->plan->every;
-	simulation->pause = write_one;
-	simulation->pause_context = checkpointing;
+	checkpointing->simulation->pause[PAUSE_CHECKPOINT] = (struct simulation_pause){write_one, checkpointing};
 }
 
 void checkpointing_end(struct simulation *simulation)
 {
-	if (simulation->pause) simulation->pause(simulation->pause_context);
+	const struct simulation_pause *pause = &simulation->pause[PAUSE_CHECKPOINT];
+	if (pause->look) pause->look(pause->context);
 }
 
 /* ------------------------------------------------------------------ resuming */
@@ -167,22 +166,13 @@ bool checkpointing_fits(const struct run_plan *plan, const struct simulation *si
 				 resumed->scene, (unsigned long long)resumed->seed);
 }
 
-bool checkpointing_has_impacts(const struct checkpoint *checkpoint)
+unsigned checkpointing_measures(const struct checkpoint *checkpoint)
 {
-	uint64_t count;
-	return checkpoint_get(checkpoint, "impacts", TOUCHSTONE_COUNTS, 1, &count);
-}
-
-bool checkpointing_has_three_bodies(const struct checkpoint *checkpoint)
-{
-	uint64_t counts[4];
-	return checkpoint_get(checkpoint, "three_body_counts", TOUCHSTONE_COUNTS, 4, counts);
-}
-
-bool checkpointing_has_sums(const struct checkpoint *checkpoint)
-{
+	uint64_t count, counts[4];
 	double scale;
-	return checkpoint_get(checkpoint, "energy_scale", TOUCHSTONE_DOUBLES, 1, &scale);
+	return (checkpoint_get(checkpoint, "impacts", TOUCHSTONE_COUNTS, 1, &count) ? RUN_IMPACT : 0) |
+		   (checkpoint_get(checkpoint, "three_body_counts", TOUCHSTONE_COUNTS, 4, counts) ? RUN_THREE_BODY : 0) |
+		   (checkpoint_get(checkpoint, "energy_scale", TOUCHSTONE_DOUBLES, 1, &scale) ? RUN_CONSERVATION : 0);
 }
 
 bool checkpointing_resume(struct checkpointing *checkpointing, bool *measuring, char error[STORE_ERROR])
@@ -206,11 +196,11 @@ bool checkpointing_resume(struct checkpointing *checkpointing, bool *measuring, 
 		return blame(plan, error, "the run had come to a time of %g; accepted: --time of at least as much",
 					 status.time - outcome->time_begun);
 	const char *lacking = NULL;
-	if (plan->conservation && !each_sum(&outcome->conserved[0], get, resumed)) lacking = "conservation";
-	if (plan->impact && !each_impact(outcome->impact, get, resumed)) lacking = "impact";
-	if (plan->three_body && !each_three_body(&outcome->three_body, get, resumed)) lacking = "three-body";
+	outcome->conservation = plan->measures & RUN_CONSERVATION;
+	if (outcome->conservation && !each_sum(&outcome->conserved[0], get, resumed)) lacking = "conservation";
+	if (plan->measures & RUN_IMPACT && !each_impact(outcome->impact, get, resumed)) lacking = "impact";
+	if (plan->measures & RUN_THREE_BODY && !each_three_body(&outcome->three_body, get, resumed)) lacking = "three-body";
 	if (lacking)
 		return blame(plan, error, "%s was not measured from the beginning; accepted: --measure without it", lacking);
-	outcome->conservation = plan->conservation;
 	return true;
 }

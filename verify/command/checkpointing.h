@@ -16,10 +16,8 @@ struct checkpointing {
  * limits; false with a message. */
 bool checkpointing_fits(const struct run_plan *plan, const struct simulation *simulation, char error[STORE_ERROR]);
 
-/* Whether impacts were measured, three-body events, and sums that are conserved, before a checkpoint. */
-bool checkpointing_has_impacts(const struct checkpoint *checkpoint);
-bool checkpointing_has_three_bodies(const struct checkpoint *checkpoint);
-bool checkpointing_has_sums(const struct checkpoint *checkpoint);
+/* What was measured before a checkpoint, of enum run_measure. */
+unsigned checkpointing_measures(const struct checkpoint *checkpoint);
 
 /* Takes over what was measured before the checkpoint that the plan resumes; false with a message, such as when it lacks
  * a measure that is wanted. `*measuring` tells whether equilibration is over. */

@@ -12,6 +12,7 @@
 #include "audit/suite.h"
 #include "campaign/campaign_file.h"
 #include "command/cases.h"
+#include "command/run_measures.h"
 #include "family/family.h"
 #include "store/query_file.h"
 #include "store/scene_file.h"
@@ -87,6 +88,13 @@ static bool list_methods(const char *folder)
 {
 	(void)folder;
 	for (int m = 0; m < METHODS; m++) print(methods[m].name, methods[m].about);
+	return true;
+}
+
+static bool list_measures(const char *folder)
+{
+	(void)folder;
+	for (const struct run_measure_entry *entry = run_measures; entry->name; entry++) print(entry->name, entry->about);
 	return true;
 }
 
@@ -214,9 +222,9 @@ static const struct kind {
 	const char *name;
 	bool (*list)(const char *folder);
 } kinds[] = {
-	{"cases", list_cases},       {"methods", list_methods}, {"arithmetics", list_arithmetics},
-	{"families", list_families}, {"figures", list_figures}, {"campaigns", list_campaigns},
-	{"suites", list_suites},
+	{"cases", list_cases},       {"methods", list_methods},   {"arithmetics", list_arithmetics},
+	{"families", list_families}, {"figures", list_figures},   {"campaigns", list_campaigns},
+	{"suites", list_suites},     {"measures", list_measures},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -235,12 +243,13 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 	case ARGP_KEY_ARG:
 		if (wish->kind)
 			refuse_usage("list: more than one kind; accepted: one of cases, methods, arithmetics, families, figures, "
-						 "campaigns, suites");
+						 "campaigns, suites, measures");
 		for (int k = 0; k < KINDS; k++)
 			if (strcmp(kinds[k].name, argument) == 0) wish->kind = &kinds[k];
 		if (!wish->kind)
 			refuse_usage(
-				"list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns, suites",
+				"list: no kind '%.60s'; accepted: cases, methods, arithmetics, families, figures, campaigns, suites, "
+				"measures",
 				argument);
 		return 0;
 	default:
@@ -255,10 +264,10 @@ int command_list(int argc, char **argv)
 	static const struct argp argp = {
 		.options = options,
 		.parser = parse,
-		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns|suites]",
+		.args_doc = "[cases|methods|arithmetics|families|figures|campaigns|suites|measures]",
 		.doc = "Lists what there is, with one line each: scenes that `run` knows by name, methods and arithmetics, "
 			   "families of questions to finders, figures that `reproduce` makes, campaigns, suites of "
-			   "`audit`.\vExample: touchstone list "
+			   "`audit`, measures of `run` and of campaigns.\vExample: touchstone list "
 			   "methods",
 	};
 	struct wish wish = {0};

@@ -7,6 +7,9 @@ static const struct {
 	const char *result, *title, *query;
 } links[] = {
 	{"fig3", "A gas of discs in double and in single precision, until they part", "scene=gas&length=60&aspect-ratio=1"},
+	{"fig3", "Some spheres of the paper's gas", "scene=hard-spheres"},
+	{"fig4", "Three balls meet within 10^-14: the stable rule goes on, the textbook halts",
+	 "scene=three-body&method=stable&against=naive"},
 	{"fig5", "Three balls meet within 10^-14: the stable rule goes on, the textbook halts",
 	 "scene=three-body&method=stable&against=naive"},
 	{"fig5", "Missed collisions in a dense scene, where contacts are less often exact",
@@ -18,6 +21,11 @@ static const struct {
 	 "scene=gas&length=40&aspect-ratio=1&arithmetic=short:12&against=binary64"},
 	{"horizon", "Double and single precision from the same start: the event at which they part is counted",
 	 "scene=gas&length=40&aspect-ratio=1&arithmetic=binary64&against=binary32"},
+	{"states", "Square wells: by what is remembered of pairs, and by what their positions say",
+	 "scene=square-well&method=stable&against=positional&speed=3"},
+	{"states", "Square shoulders, the same", "scene=square-shoulder&method=stable&against=positional&speed=3"},
+	{"time-and-place", "Discs far from the origin, in double and in single precision", "scene=stress-far-away"},
+	{"time-and-place", "A gas on a late clock, the same", "scene=stress-long-times"},
 	{"grade*", "A finder that misses collisions: discs sink into one another",
 	 "scene=convection&length=50&aspect-ratio=1&nitems=1000&arithmetic=short:12&against=guarded&speed=1"},
 	{"grade*", "A finder that answers with a negative time", "scene=three-body&method=stable&against=naive"},

@@ -86,11 +86,13 @@ static int merge(const struct wish *wish, struct gathered *all)
 		struct piece_store *store = piece_store_read(wish->paths[i], name, error);
 		good = store;
 		if (!good) break;
-		if (!name) name = strdup(piece_store_campaign(store));
+		if (!name && piece_store_campaign(store)) name = strdup(piece_store_campaign(store));
 		gather(all, wish->paths[i], store);
 		piece_store_close(store, NULL);
 	}
-	struct piece_store *store = good ? piece_store_open(wish->paths[0], name, error) : NULL;
+	if (good && !name)
+		snprintf(error, sizeof error, "none of these stores has a first line yet; accepted: one that has");
+	struct piece_store *store = good && name ? piece_store_open(wish->paths[0], name, error) : NULL;
 	free(name);
 	if (!store) return refuse("%s", error);
 	gather(all, wish->paths[0], store);

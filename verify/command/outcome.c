@@ -8,9 +8,9 @@
 
 #include "command/checkpointing.h"
 #include "command/command.h"
+#include "command/frames.h"
 #include "command/interrupt.h"
 #include "measure/course.h"
-#include "store/extended_xyz.h"
 
 static const char *const verdicts[] = {
 	[TOUCHSTONE_DONE] = "done",
@@ -67,9 +67,9 @@ static void begin_measuring(struct outcome *outcome, const struct run_plan *plan
 {
 	touchstone_recount(simulation->engine);
 	touchstone_status(simulation->engine, &outcome->status);
-	outcome->conservation = plan->conservation;
+	outcome->conservation = plan->measures & RUN_CONSERVATION;
 	outcome->time_begun = outcome->status.time;
-	if (plan->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
+	if (outcome->conservation) outcome->conserved[0] = conservation_of(&simulation->scene, simulation->engine);
 }
 
 /* Shows an event to all that look on. */
@@ -101,7 +101,9 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 	limits.time += outcome->time_begun;
 	if (outcome->states) {
 		misreading_begin(&outcome->states->misreading, &simulation->scene, simulation->engine);
-		touchstone_observe_tests(simulation->engine, see_test, inconsistency_reach, outcome->states);
+		outcome->states->listener =
+			(struct touchstone_listener){see_test, outcome->states, inconsistency_reach, INFINITY, 0};
+		touchstone_observe_tests(simulation->engine, &outcome->states->listener);
 	}
 	const struct touchstone_observer *look = observed ? &observer : NULL;
 	if (plan->trace) limits.stop = interrupt_flag();
@@ -118,7 +120,7 @@ static void measure(struct outcome *outcome, const struct run_plan *plan, struct
 			 limits.time == INFINITY)
 		reason(outcome, "no event is left after t = %.17g", outcome->status.time);
 	for (size_t w = 0; w < outcome->virtual_wall_count; w++) touchstone_flux(simulation->engine, w, outcome->fluxes[w]);
-	if (plan->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
+	if (outcome->conservation) outcome->conserved[1] = conservation_of(&simulation->scene, simulation->engine);
 }
 
 /* The same run once more, watched for what goes wrong. */
@@ -130,32 +132,6 @@ static void judge(struct outcome *outcome, const struct run_plan *plan, const st
 									plan->file->method, &plan->limits, &watch, &outcome->failure, why);
 	if (outcome->failed) snprintf(outcome->error, STORE_ERROR, "%s", why);
 	outcome->interrupted = outcome->failure.stopped;
-}
-
-/* Writes the particles as they are now; their species and the box are those of the scene. */
-static bool write_particles(const struct simulation *simulation, const char *path, char error[STORE_ERROR])
-{
-	struct touchstone_scene scene = simulation->scene;
-	struct touchstone_particle *particles = malloc(scene.particle_count * sizeof *particles);
-	uint32_t *captured = malloc(scene.particle_count * sizeof *captured);
-	bool stepped = false;
-	for (size_t p = 0; p < scene.potential_count; p++) stepped |= scene.potentials[p].step_count > 0;
-	if (!particles || !captured) {
-		snprintf(error, STORE_ERROR, "%.200s: no memory for %zu particles", path, scene.particle_count);
-		free(particles);
-		free(captured);
-		return false;
-	}
-	for (uint32_t p = 0; p < scene.particle_count; p++) {
-		particles[p].species = scene.particles[p].species;
-		touchstone_state(simulation->engine, p, particles[p].position, particles[p].velocity);
-		captured[p] = (uint32_t)touchstone_captured(simulation->engine, p, NULL, 0);
-	}
-	scene.particles = particles;
-	bool written = extended_xyz_write(path, &scene, stepped ? captured : NULL, error);
-	free(particles);
-	free(captured);
-	return written;
 }
 
 /* Where the run parts from the same in a finer arithmetic; before it begins, both get one start. */
@@ -179,11 +155,12 @@ static bool compare(struct outcome *outcome, const struct run_plan *plan, struct
 static bool begin_measures(struct outcome *outcome, const struct run_plan *plan)
 {
 	int bits = arithmetic_bits(plan->file->arithmetic);
-	if (plan->impact && !(outcome->impact = malloc(sizeof *outcome->impact))) return false;
-	if (plan->impact) impact_begin(outcome->impact, bits);
-	if (plan->three_body) outcome->three_bodies = three_body_begin(&outcome->three_body, outcome->particles);
-	if (plan->three_body && !outcome->three_bodies) return false;
-	if (!plan->states) return true;
+	unsigned measures = plan->measures;
+	if (measures & RUN_IMPACT && !(outcome->impact = malloc(sizeof *outcome->impact))) return false;
+	if (outcome->impact) impact_begin(outcome->impact, bits);
+	if (measures & RUN_THREE_BODY) outcome->three_bodies = three_body_begin(&outcome->three_body, outcome->particles);
+	if (measures & RUN_THREE_BODY && !outcome->three_bodies) return false;
+	if (!(measures & RUN_STATES)) return true;
 	outcome->states = calloc(1, sizeof *outcome->states);
 	return outcome->states && inconsistency_begin(&outcome->states->inconsistency, bits, outcome->particles);
 }
@@ -204,6 +181,11 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 	bool measuring = false;
 	outcome->failed = plan->resumed && !checkpointing_resume(&checkpointing, &measuring, outcome->error);
 	if (outcome->failed) return;
+	struct frames frames;
+	bool framed = plan->xyz && frames_begin(&frames, simulation, plan->xyz, outcome->error);
+	outcome->failed = plan->xyz && !framed;
+	if (outcome->failed) return;
+	simulation->every = plan->every;
 	checkpointing_begin(&checkpointing, measuring);
 	uint64_t before = 0;
 	if (!measuring) {
@@ -216,9 +198,12 @@ static void find(struct outcome *outcome, const struct run_plan *plan, struct si
 		if (measuring && !outcome->failed) begin_measuring(outcome, plan, simulation);
 	}
 	checkpointing.measuring = measuring;
+	if (framed && plan->every && measuring && !outcome->failed) frames_follow(&frames);
 	if (measuring && !outcome->failed) measure(outcome, plan, simulation, progress, before);
-	if (measuring && plan->failure && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
-	if (plan->xyz && !outcome->failed) write_particles(simulation, plan->xyz, outcome->error);
+	bool judged = plan->measures & RUN_FAILURE;
+	if (judged && !outcome->interrupted && !outcome->failed) judge(outcome, plan, simulation);
+	if (framed && outcome->failed) frames_drop(&frames);
+	if (framed && !outcome->failed) frames_end(&frames, outcome->error);
 }
 
 void outcome_find(struct outcome *outcome, const struct run_plan *plan, uint64_t seed,

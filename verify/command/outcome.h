@@ -54,11 +54,12 @@
  *	                       measure/inconsistency.h, by its name, count and per_event, [rate, 95 % interval]; repeats,
  *	                       misses and energy as in measure/misreading.h; repeated, missed, stuck: the first of each,
  *	                       null where there was none: event, time, kind, pair, third (null: none), was, read
- *	failure                when measured: what (survives, halts, ...: measure/failure.h), event (the first that shows
- *it, null for none), time, text trace                  with --trace: list of events, each with kind, between [particle,
- *particle or wall], time, wait (since the later of their last events), separation, steps (that in representable numbers
- *	                       from contact), stabilising, backwards (measure/trace.h), positions and velocities (left by
- *	                       it, of both particles)
+ *	failure                when measured: what (survives, halts, ...: measure/failure.h), survived (whether nothing is
+ *	                       wrong), event (the first that shows it, null for none), time, text
+ *	trace                  with --trace: list of events, each with kind, between [particle, particle or wall], time,
+ *	                       wait (since the later of their last events), separation, steps (that in representable
+ *	                       numbers from contact), stabilising, backwards (measure/trace.h), positions and velocities
+ *	                       (left by it, of both particles)
  *
  * Numbers that do not exist, such as the rate of no collisions, are null. */
 #ifndef VERIFY_OUTCOME_H
@@ -66,6 +67,7 @@
 
 #include <jansson.h>
 
+#include "command/run_measures.h"
 #include "command/simulation.h"
 #include "measure/conservation.h"
 #include "measure/failure.h"
@@ -83,13 +85,13 @@ struct run_plan {
 	struct touchstone_limits limits; /* after equilibration */
 	const char *const *settings;
 	size_t setting_count;
-	bool conservation, impact, three_body, states; /* measured? */
-	bool trace, failure;                           /* told event by event? watched for what goes wrong? */
-	const char *xyz;                               /* file for the final configuration, or NULL */
-	const char *against;                           /* a finer arithmetic to find the horizon with, or NULL */
-	const char *checkpoint;                        /* file for checkpoints, or NULL: */
-	uint64_t every;                                /* so many events; 0: at the end only */
-	const char *resume; /* file of the checkpoint that the run goes on from, and what it holds; or NULL */
+	unsigned measures;      /* of enum run_measure */
+	bool trace;             /* told event by event? */
+	const char *xyz;        /* file for the particles at the end, or NULL */
+	const char *against;    /* a finer arithmetic to find the horizon with, or NULL */
+	const char *checkpoint; /* file for checkpoints, or NULL */
+	uint64_t every;         /* so many events both are written, particles as one more frame; 0: at the end only */
+	const char *resume;     /* file of the checkpoint that the run goes on from, and what it holds; or NULL */
 	const struct checkpoint *resumed;
 };
 
@@ -97,6 +99,7 @@ struct run_plan {
 struct states_outcome {
 	struct inconsistency inconsistency;
 	struct misreading misreading;
+	struct touchstone_listener listener; /* to tests, for both */
 };
 
 /* What became of one run. */

@@ -69,7 +69,7 @@ static json_t *trace_json(const struct trace *trace, int dimensions)
 
 void outcome_print_events(const struct run_plan *plan, const struct outcome *outcomes, size_t count)
 {
-	for (size_t o = 0; plan->failure && o < count; o++) {
+	for (size_t o = 0; plan->measures & RUN_FAILURE && o < count; o++) {
 		const struct failure *failure = &outcomes[o].failure;
 		if (failure->event)
 			outcome_row("judged", "%s: event %llu, t = %.9g: %s", failure_word(failure->kind),
@@ -84,10 +84,10 @@ void outcome_set_events(json_t *run, const struct run_plan *plan, const struct o
 {
 	const struct failure *failure = &outcome->failure;
 	if (plan->trace) json_object_set_new(run, "trace", trace_json(&outcome->trace, plan->file->recipe.dimensions));
-	if (!plan->failure) return;
+	if (!(plan->measures & RUN_FAILURE)) return;
 	json_t *event = failure->event ? json_integer((json_int_t)failure->event) : json_null();
 	json_t *time = failure->event && isfinite(failure->time) ? json_real(failure->time) : json_null();
 	json_object_set_new(run, "failure",
-						json_pack("{s:s, s:o, s:o, s:s}", "what", failure_word(failure->kind), "event", event, "time",
-								  time, "text", failure->text));
+						json_pack("{s:s, s:b, s:o, s:o, s:s}", "what", failure_word(failure->kind), "survived",
+								  failure_survived(failure), "event", event, "time", time, "text", failure->text));
 }

@@ -40,7 +40,7 @@ json_t *states_json(const struct states_outcome *states)
 	const struct inconsistency *inconsistency = &states->inconsistency;
 	const struct misreading *misreading = &states->misreading;
 	double events = (double)inconsistency->events;
-	json_t *json = json_pack("{s:I}", "tests", (json_int_t)inconsistency->tests);
+	json_t *json = json_pack("{s:I}", "tests", (json_int_t)states->listener.tests);
 	for (int kind = 0; kind < INCONSISTENCIES; kind++) {
 		uint64_t count = inconsistency->count[kind];
 		struct interval interval = interval_of_rate(count, events);

@@ -53,12 +53,7 @@ static const struct argp_option options[] = {
 	{"set", SET, "KEY=VALUE", 0,
 	 "Override any key of the scene, such as density=0.9; may be repeated, the last one counts", 1},
 	{"explain", EXPLAIN, 0, 0, "First say what is modelled and what is left out. With --events 0, say only that", 2},
-	{"measure", MEASURE, "LIST", 0,
-	 "Measure on the way: impact (separation at each contact), conservation (energy, momentum), three-body (contacts "
-	 "after which a particle overlaps its partner and a third), failure (a second run, watched for what goes wrong "
-	 "first, as in the failure atlas), states (pairs whose positions contradict their tracked state, and whether the "
-	 "method is misled by them)",
-	 2},
+	{"measure", MEASURE, "LIST", 0, "Measure on the way", 2},
 	{"against", AGAINST, "A", 0,
 	 "Run the same start in the finer arithmetic A as well, such as mpfr:256, and say for how many events this run can "
 	 "be trusted: until the two sequences of events first differ",
@@ -69,13 +64,15 @@ static const struct argp_option options[] = {
 	 2},
 	{"json", JSON, "FILE", 0, "Write what came of it as JSON; - for standard output, instead of the table", 2},
 	{"xyz", XYZ, "FILE", 0,
-	 "Write the particles at the end as extended XYZ, with how many partners each has captured where there are steps",
+	 "Write the particles at the end as extended XYZ, with how many partners each has captured where there are steps; "
+	 "with --every, first those at the beginning and on the way, as frames of the one file",
 	 2},
 	{"runs", RUNS, "R", 0, "Run R times, with the seeds S, S+1, ... (1)", 3},
 	{"threads", THREADS, "K", 0, "Run K of them at a time (1); the results do not depend on it", 3},
 	{"checkpoint", CHECKPOINT, "FILE", 0,
 	 "Write the whole state to FILE at the end and on Ctrl-C, so that --resume can go on from it", 4},
-	{"every", EVERY, "N", 0, "and whenever so many more events have been executed", 4},
+	{"every", EVERY, "N", 0, "Write what --checkpoint and --xyz write whenever so many more events have been executed",
+	 4},
 	{"resume", RESUME, "FILE", 0,
 	 "Go on from a checkpoint of the same scene as if the run had never stopped: --events, --time and what is measured "
 	 "mean the whole of it",
@@ -85,7 +82,8 @@ static const struct argp_option options[] = {
 
 struct wish {
 	const char *scene, *json, *xyz, *folder, *against, *checkpoint, *resume;
-	bool explain, impact, conservation, three_body, trace, failure, states;
+	bool explain, trace;
+	unsigned measures; /* of enum run_measure */
 	uint64_t runs, threads, every;
 	char **words;    /* of the command line, the first being the command */
 	char **settings; /* KEY=VALUE, each from malloc */
@@ -102,29 +100,29 @@ static void add_setting(struct wish *wish, const char *key, const char *value)
 
 static void choose_measures(struct wish *wish, char *list)
 {
-	char *const names[] = {"impact", "conservation", "three-body", "failure", "states", NULL};
-	while (*list) {
-		char *word = list, *value;
-		switch (getsubopt(&list, names, &value)) {
-		case 0:
-			wish->impact = true;
-			break;
-		case 1:
-			wish->conservation = true;
-			break;
-		case 2:
-			wish->three_body = true;
-			break;
-		case 3:
-			wish->failure = true;
-			break;
-		case 4:
-			wish->states = true;
-			break;
-		default:
-			refuse_option("measure", word, "impact, conservation, three-body, failure, states, or several with commas");
-		}
+	char accepted[RUN_MEASURE_NAMES + 40], names[RUN_MEASURE_NAMES];
+	for (char *word; (word = strsep(&list, ","));) {
+		unsigned measure = run_measure_named(word);
+		snprintf(accepted, sizeof accepted, "%s, or several with commas", run_measure_names(names));
+		if (!measure) refuse_option("measure", word, accepted);
+		wish->measures |= measure;
 	}
+}
+
+/* The help of --measure goes on with what there is to measure. */
+static char *help(int key, const char *text, void *input)
+{
+	(void)input;
+	if (key != MEASURE) return (char *)text;
+	char *whole = NULL;
+	size_t size;
+	FILE *stream = open_memstream(&whole, &size);
+	if (!stream) return (char *)text;
+	fputs(text, stream);
+	for (const struct run_measure_entry *entry = run_measures; entry->name; entry++)
+		fprintf(stream, "%s%s (%s)", entry == run_measures ? ": " : ", ", entry->name, entry->about);
+	fclose(stream);
+	return whole;
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -235,7 +233,7 @@ static int tell(const struct run_plan *plan, const struct wish *wish, const stru
 		enum touchstone_verdict verdict = outcomes[run].status.verdict;
 		interrupted |= outcomes[run].interrupted;
 		broken |= verdict == TOUCHSTONE_HALTED || verdict == TOUCHSTONE_DIVERGED ||
-				  (plan->failure && !failure_survived(&outcomes[run].failure));
+				  (plan->measures & RUN_FAILURE && !failure_survived(&outcomes[run].failure));
 	}
 	if (!limited(plan->file))
 		fprintf(stderr, "touchstone: neither events nor time given; ran %llu events, so that each particle meets %g\n",
@@ -289,12 +287,8 @@ static int run_file(const struct wish *wish, const char *path, const struct scen
 		.limits = limits,
 		.settings = (const char *const *)wish->settings,
 		.setting_count = wish->setting_count,
-		.impact = wish->impact || (resumed && checkpointing_has_impacts(resumed)),
-		.conservation = wish->conservation || (resumed && checkpointing_has_sums(resumed)),
-		.three_body = wish->three_body || (resumed && checkpointing_has_three_bodies(resumed)),
-		.states = wish->states,
+		.measures = wish->measures | (resumed ? checkpointing_measures(resumed) : 0),
 		.trace = wish->trace,
-		.failure = wish->failure,
 		.xyz = wish->xyz,
 		.against = wish->against,
 		.checkpoint = wish->checkpoint,
@@ -329,13 +323,16 @@ static int run(const struct wish *wish)
 					  (unsigned long long)wish->runs);
 	if ((wish->checkpoint || wish->resume) && wish->against)
 		return refuse("--against: accepted: without --checkpoint and --resume, since both runs begin together");
-	if (wish->every && !wish->checkpoint) return refuse("--every: accepted: with --checkpoint");
+	if (wish->every && ((!wish->checkpoint && !wish->xyz) || wish->trace))
+		return refuse("--every: accepted: with --checkpoint or --xyz, and without --trace");
 	if (wish->xyz && (wish->runs > 1 || strcmp(wish->xyz, "-") == 0))
 		return refuse("--xyz: accepted: a file, and a single run");
-	if ((wish->checkpoint || wish->resume) && (wish->trace || wish->failure || wish->states))
-		return refuse("--%s: accepted: without --checkpoint and --resume", wish->trace     ? "trace"
-																		   : wish->failure ? "measure failure"
-																						   : "measure states");
+	const char *unkept = wish->trace                    ? "trace"
+						 : wish->measures & RUN_FAILURE ? "measure failure"
+						 : wish->measures & RUN_STATES  ? "measure states"
+														: NULL;
+	if ((wish->checkpoint || wish->resume) && unkept)
+		return refuse("--%s: accepted: without --checkpoint and --resume", unkept);
 	if (wish->trace && wish->runs > 1) return refuse("--trace: accepted: a single run");
 	if ((wish->json && !output_possible(wish->json, error)) || (wish->xyz && !output_possible(wish->xyz, error)) ||
 		(wish->checkpoint && !output_possible(wish->checkpoint, error)))
@@ -365,6 +362,7 @@ int command_run(int argc, char **argv)
 		.options = options,
 		.parser = parse,
 		.args_doc = "SCENE",
+		.help_filter = help,
 		.doc = "Runs a scene and tells what became of it: how many events, its verdict, how fast it was, and a digest "
 			   "that is the same for every compiler, optimisation and number of threads. SCENE is a file, or a case by "
 			   "its name.\v"

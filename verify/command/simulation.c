@@ -142,7 +142,8 @@ bool simulation_advance(struct simulation *simulation, const struct touchstone_l
 		touchstone_status(simulation->engine, &now);
 		bool more = through && now.verdict == TOUCHSTONE_DONE && now.events - events == part.events;
 		if (!more || !every || now.events >= until) return through;
-		simulation->pause(simulation->pause_context);
+		for (int p = 0; p < PAUSES; p++)
+			if (simulation->pause[p].look) simulation->pause[p].look(simulation->pause[p].context);
 	}
 }
 

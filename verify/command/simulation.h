@@ -6,12 +6,18 @@
 #include "measure/horizon.h"
 #include "store/scene_file.h"
 
+/* Who looks at the engine in a pause; it must not be run. */
+struct simulation_pause {
+	void (*look)(void *context); /* NULL: nobody */
+	void *context;
+};
+enum { PAUSE_CHECKPOINT, PAUSE_FRAME, PAUSES };
+
 struct simulation {
 	struct touchstone_scene scene;
 	struct touchstone_engine *engine;
-	uint64_t every;               /* events: whenever so many more have been executed in all, there is a pause, */
-	void (*pause)(void *context); /* in which the engine may be looked at, and not run; 0: never */
-	void *pause_context;
+	uint64_t every; /* events: whenever so many more have been executed in all, there is a pause; 0: never */
+	struct simulation_pause pause[PAUSES];
 };
 
 /* Makes the scene of `file` with another seed, and the engine it asks for. False with a message, and nothing to close,

@@ -64,10 +64,21 @@ static void add_glance(struct result *result, const struct atlas *atlas)
 			}
 			table_shaded(table, level_of(cell->failure.kind), "%s; %s%s", failure_word(cell->failure.kind), event,
 						 bits);
-			char anchor[80], query[300];
+			char anchor[80], query[300], unseen[80];
 			table_link(table, write_anchor(atlas, m, s, anchor));
-			if (atlas_live(atlas, m, s, query)) table_live(table, query);
+			if (atlas_live(atlas, m, s, query, unseen)) table_live(table, query);
+			if (*unseen) table_unseen(table, unseen);
 		}
+	}
+}
+
+/* Each scene on the live page, by the stable rule in double and in single precision. */
+static void add_scenes(struct result *result, const struct atlas *atlas)
+{
+	for (int s = 0; s < atlas->scenes; s++) {
+		char query[80];
+		snprintf(query, sizeof query, "scene=stress-%s&seed=%" PRIu64, atlas->scene_name[s], atlas->file[s]->seed);
+		result_live(result, atlas->file[s]->title, query);
 	}
 }
 
@@ -139,6 +150,7 @@ struct result *atlas_result(const struct atlas *atlas)
 					 "goes. Then bisection over the precision finds from how many bits on the method survives.",
 					 atlas->methods, atlas->scenes, atlas->limits.events);
 	add_claim(result, atlas);
+	add_scenes(result, atlas);
 	add_glance(result, atlas);
 	add_cells(result, atlas);
 	result_note(result,

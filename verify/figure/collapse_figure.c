@@ -1,7 +1,7 @@
 /* Section 5 and figure 7 of the 2014 paper: a ball comes to rest on a plate, or does not. */
 #include "figure/figure.h"
 
-#include "campaign/campaign.h"
+#include "figure/figure_campaign.h"
 #include "measure/collapse.h"
 #include "measure/interval.h"
 #include <math.h>
@@ -291,14 +291,7 @@ struct result *figure_collapse(const struct figure_setup *setup, char error[512]
 {
 	struct sizes sizes = {setup, setup->full ? 1000000 : 100000, setup->full ? 2000 : 200};
 	const struct campaign campaign = {"fig7", PIECES, piece_key, NULL, make_piece, &sizes};
-	json_t *results = campaign_run(&campaign,
-								   &(struct campaign_setup){.folder = setup->folder,
-															.this_revision = true,
-															.threads = setup->threads,
-															.stop = setup->stop,
-															.progress = setup->progress,
-															.context = setup->context},
-								   error);
+	json_t *results = figure_campaign_run(&campaign, setup, error);
 	if (!results) return NULL;
 	struct collapse piece[PIECES]; /* those that were not finished have no plates */
 	for (int p = 0; p < PIECES; p++) piece[p] = collapse_of_json(json_array_get(results, (size_t)p));

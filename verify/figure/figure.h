@@ -10,6 +10,7 @@ struct figure_setup {
 	uint64_t seed;
 	int threads;              /* runs side by side; the numbers do not depend on it */
 	const char *folder;       /* where finished pieces are kept until the figure is whole; NULL: nowhere */
+	bool any_revision;        /* take finished pieces that another revision of the program has made as well */
 	const volatile int *stop; /* non-zero: come to an end with what is done */
 	/* Told how much of the whole is done, from one thread at a time; may be NULL. */
 	void (*progress)(void *context, double part);

@@ -1,6 +1,6 @@
 #include "figure/gas_points.h"
 
-#include "campaign/campaign.h"
+#include "figure/figure_campaign.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +44,7 @@ static struct kept_setup piece_setup(const struct points *points, size_t piece)
 		.equilibrate = 20,
 		.settle = point->restitution < 1 ? 20 : 0,
 		.events = point->events * (part + 1) / pieces - point->events * part / pieces,
-		.starts = 8,
+		.starts = point->starts ? point->starts : 8,
 		.halvings = point->halvings ? point->halvings : 1,
 		.seed = points->setup->seed * 100000 + part,
 	};
@@ -66,7 +66,7 @@ static double piece_cost(void *context, size_t piece)
 {
 	const struct points *points = context;
 	const struct gas_point *point = &points->point[point_of(points, piece)];
-	double each = point->bits == 24 || point->bits == 53 ? 1 : point->bits < 10 ? 300 : point->bits < 12 ? 20 : 5;
+	double each = point->bits == 24 || point->bits == 53 ? 1 : point->bits < 10 ? 300 : point->bits < 14 ? 20 : 5;
 	return each * (double)piece_setup(points, piece).events;
 }
 
@@ -152,13 +152,7 @@ bool gas_points_measure(const char *name, const struct figure_setup *setup, cons
 	}
 	for (size_t p = 0; p < count; p++) all.first[p + 1] = all.first[p] + pieces_of(&points[p]);
 	const struct campaign campaign = {name, all.first[count], piece_key, piece_cost, make_piece, &all};
-	const struct campaign_setup how = {.folder = setup->folder,
-									   .this_revision = true,
-									   .threads = setup->threads,
-									   .stop = setup->stop,
-									   .progress = setup->progress,
-									   .context = setup->context};
-	json_t *results = campaign_run(&campaign, &how, error);
+	json_t *results = figure_campaign_run(&campaign, setup, error);
 	if (results) {
 		*stopped = campaign_finished(results) < campaign.count;
 		for (size_t p = 0; p < count; p++) {

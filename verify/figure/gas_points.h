@@ -13,6 +13,7 @@ struct gas_point {
 	size_t particles;
 	uint64_t events; /* to be counted; the gases have settled before */
 	int halvings;    /* of speeds, before the unit of time changes; 0 is 1 */
+	int starts;      /* start states that a piece may use up, one after another as gases end; 0 is 8 */
 	enum touchstone_form form;
 	double clock;
 };

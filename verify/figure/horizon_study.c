@@ -1,6 +1,6 @@
 #include "figure/horizon_study.h"
 
-#include "campaign/campaign.h"
+#include "figure/figure_campaign.h"
 #include "measure/start_state.h"
 #include <inttypes.h>
 #include <math.h>
@@ -175,14 +175,7 @@ bool horizon_study_run(struct horizon_study *study, struct horizon_finding findi
 	const struct figure_setup *setup = study->setup;
 	const size_t pieces = *all = STUDY_DENSITIES * study->starts;
 	const struct campaign campaign = {"horizon", pieces, piece_key, piece_cost, make_piece, study};
-	json_t *results = campaign_run(&campaign,
-								   &(struct campaign_setup){.folder = setup->folder,
-															.this_revision = true,
-															.threads = setup->threads,
-															.stop = setup->stop,
-															.progress = setup->progress,
-															.context = setup->context},
-								   error);
+	json_t *results = figure_campaign_run(&campaign, setup, error);
 	if (!results) return false;
 	*finished = campaign_finished(results);
 	struct start *starts = calloc(pieces, sizeof *starts);

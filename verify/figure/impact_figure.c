@@ -1,7 +1,7 @@
 /* Figure 3 of the 2014 paper: separations at impact of 13 500 hard spheres. */
 #include "figure/figure.h"
 
-#include "campaign/campaign.h"
+#include "figure/figure_campaign.h"
 #include "measure/course.h"
 #include "measure/impact_json.h"
 #include "measure/interval.h"
@@ -279,14 +279,7 @@ static void add_claims(struct result *result, const struct point *points)
 struct result *figure_impact(const struct figure_setup *setup, char error[512])
 {
 	const struct campaign campaign = {"fig3", POINTS, piece_key, NULL, make_piece, (void *)setup};
-	json_t *results = campaign_run(&campaign,
-								   &(struct campaign_setup){.folder = setup->folder,
-															.this_revision = true,
-															.threads = setup->threads,
-															.stop = setup->stop,
-															.progress = setup->progress,
-															.context = setup->context},
-								   error);
+	json_t *results = figure_campaign_run(&campaign, setup, error);
 	if (!results) return NULL;
 	struct point *points = calloc(POINTS, sizeof *points);
 	struct result *result = result_new("fig3", "How far from contact do spheres collide?");

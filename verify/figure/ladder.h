@@ -48,8 +48,15 @@ struct line_fit ladder_line(const struct ladder *ladder, int lane, enum ladder_m
 /* The point of a lane in binary64 itself; NULL where it is not finished, and for late clocks. */
 const struct gas_tally *ladder_binary64(const struct ladder *ladder, int lane);
 
-/* Tables of all rungs, and of all fits. */
+/* Three-body events per event that the 2014 paper reports for gases like a lane's (section 3): about 1e-9 for dilute
+ * elastic ones, three orders more for inelastic ones. NaN where it says nothing. */
+double ladder_reported(const struct ladder *ladder, int lane);
+
+/* Tables of what binary64 itself shows beside the lines and the paper, of all fits, and of all rungs. */
 struct result;
 void ladder_tables(struct result *result, const struct ladder *ladder);
+
+/* All that there is to tell: summary, claims, figures and those tables (ladder_figure.c). */
+void ladder_tell(struct result *result, const struct ladder *ladder);
 
 #endif

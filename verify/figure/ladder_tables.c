@@ -110,8 +110,49 @@ static void add_line(struct result_table table, const struct ladder *ladder, int
 		table_text(table, "-");
 }
 
+/* A rate, and how often it lets one see something in so many events. */
+static void add_expected(struct result_table table, double rate, double events)
+{
+	for (int cell = 0; cell < 2; cell++)
+		if (isnan(rate))
+			table_text(table, "-");
+		else
+			table_text(table, "%.2g", cell ? rate * events : rate);
+}
+
+/* What binary64 itself shows, beside what the line through coarser arithmetics and the paper let expect. */
+static void add_direct(struct result *result, const struct ladder *ladder)
+{
+	static const char *const columns[] = {"restitution, density", "events in binary64", "three-body events",
+										  "per event (95 %)",     "by the line",        "lets expect",
+										  "2014 paper",           "lets expect",        NULL};
+	struct result_table table =
+		result_table(result, "In binary64 itself",
+					 "Runs in binary64, counted, with exact Poisson intervals (Garwood); beside them the rate that the "
+					 "line through coarser arithmetics and the rate that the paper lets expect, and how many events "
+					 "either would have shown in a run of this length.",
+					 columns);
+	for (int lane = 0; lane < LADDER_LANES; lane++) {
+		const struct gas_tally *direct = ladder_binary64(ladder, lane);
+		if (!direct) continue;
+		char label[64];
+		struct interval interval, line;
+		struct rate_fit fit = ladder_fit(ladder, lane, LADDER_EVENTS);
+		double contacts = (double)direct->three_body.contacts, reported = ladder_reported(ladder, lane);
+		double rate = three_body_rate(&direct->three_body, &interval);
+		table_row(table);
+		table_text(table, "%s", ladder_label(ladder, lane, label));
+		table_count(table, direct->three_body.contacts);
+		table_count(table, direct->three_body.events);
+		table_text(table, "%.2g (%.2g to %.2g)", rate, interval.low, interval.high);
+		add_expected(table, rate_fit_at(&fit, 53, &line), contacts);
+		add_expected(table, reported, contacts);
+	}
+}
+
 void ladder_tables(struct result *result, const struct ladder *ladder)
 {
+	add_direct(result, ladder);
 	static const char *const columns[] = {
 		"restitution, density",      "what", "exponent", "rungs", "scatter", "at 53 bits, by the line (95 %)",
 		"in binary64 itself (95 %)", NULL};

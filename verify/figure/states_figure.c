@@ -1,9 +1,8 @@
 /* The 2016 paper's experiment (section 5), how it depends on precision, and what becomes of methods that read states
  * from positions. */
 #include "figure/figure.h"
-#include "figure/step_gas.h"
+#include "figure/step_gases.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -21,19 +20,9 @@ struct result *figure_states(const struct figure_setup *setup, char error[512])
 	struct step_gas *gases = calloc(MOST_STEP_GASES, sizeof *gases);
 	struct step_gas_outcome *outcomes = calloc(MOST_STEP_GASES, sizeof *outcomes);
 	struct result *result = result_new("states", "Is a pair in its well? What positions say, and what is remembered");
-	struct step_campaign campaign = {.setup = setup};
-	size_t parts[3] = {0}, count = gases && outcomes && result ? gather(setup->full, gases, parts) : 0;
+	size_t parts[3] = {0}, count = gases && outcomes && result ? gather(setup->full, gases, parts) : 0, finished;
 	if (!count) snprintf(error, 512, "not enough memory");
-	for (size_t g = 0; g < count; g++) campaign.all += step_gas_events(&gases[g]);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(setup->threads)
-	for (size_t g = 0; g < count; g++)
-		if (!(setup->stop && *setup->stop)) step_gas_run(&gases[g], &campaign, &outcomes[g]);
-	bool good = count > 0, stopped = false;
-	for (size_t g = 0; g < count && good; g++) {
-		good = !*outcomes[g].error;
-		if (!good) snprintf(error, 512, "%s", outcomes[g].error);
-		stopped |= outcomes[g].stopped || !outcomes[g].begun;
-	}
+	bool good = count && step_gases_measure("states", setup, gases, count, outcomes, &finished, error);
 	if (good) {
 		result_paragraph(result,
 						 "In a square well or on a square shoulder a pair's state, captured or not, is part of the "
@@ -42,9 +31,9 @@ struct result *figure_states(const struct figure_setup *setup, char error[512])
 		states_paper_tell(result, gases, outcomes);
 		states_precision_tell(result, gases + parts[0], outcomes + parts[0]);
 		states_rivals_tell(result, gases + parts[0] + parts[1], outcomes + parts[0] + parts[1], setup->seed);
-		if (stopped)
-			result_incomplete(result, "interrupted after %" PRIu64 " of %" PRIu64 " events", (uint64_t)campaign.done,
-							  campaign.all);
+		if (finished < count)
+			result_incomplete(result, "interrupted after %zu of %zu gases; the next call goes on from there", finished,
+							  count);
 	}
 	free(gases);
 	free(outcomes);

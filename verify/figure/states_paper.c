@@ -62,7 +62,7 @@ static void add_runs(struct result *result, const struct step_gas *gases, const 
 	static const double dynamo[] = {41000, 23000};
 	struct result_table table = result_table(
 		result, "The runs",
-		"Seconds on one core, with the counting, while other runs may occupy the others. DynamO: events per "
+		"Seconds of one core's time, with the counting, while other runs may occupy the others. DynamO: events per "
 		"second on a like machine, as reported to us, not measured here.",
 		columns);
 	for (int g = 0; g < GASES; g++) {

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <time.h>
+#include <unistd.h>
 
-#include "measure/conservation.h"
 #include "scene/scene.h"
 
 const char *step_gas_name(const struct step_gas *gas)
@@ -44,65 +44,98 @@ static bool build(const struct step_gas *gas, uint64_t seed, struct touchstone_s
 	return false;
 }
 
+void step_gas_key(const struct step_gas *gas, uint64_t seed, char key[STEP_GAS_KEY])
+{
+	snprintf(key, STEP_GAS_KEY,
+			 "scene=%s method=%s arithmetic=%s particles=%zu form=%s equilibrate=%g seed=%" PRIu64 " events=%" PRIu64
+			 " count=%s",
+			 step_gas_name(gas), gas->method, gas->arithmetic, gas->particles,
+			 gas->form == TOUCHSTONE_ABSOLUTE ? "absolute" : "relative", gas->equilibrate, seed, gas->events,
+			 gas->watched ? "misreadings" : "inconsistencies");
+}
+
 static double clock_now(void)
 {
 	struct timespec now;
-	clock_gettime(CLOCK_MONOTONIC, &now);
+	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
 	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+static const uint64_t kept_every = 10000000; /* events: a minute or so */
+
 static void advance(void *context, uint64_t events, const struct touchstone_status *now)
 {
-	(void)now;
-	struct step_campaign *campaign = context;
-	uint64_t done = atomic_fetch_add(&campaign->done, events) + events;
-#pragma omp critical(figure_progress)
-	if (campaign->setup->progress)
-		campaign->setup->progress(campaign->setup->context, fmin(1, (double)done / (double)campaign->all));
+	struct step_gas_run *run = context;
+	if (run->watch->progress) run->watch->progress(run->watch->context, events, now);
+	run->since += events;
+	if (!run->kept || run->since < kept_every) return;
+	step_gas_keep(run);
+	run->since = 0;
 }
 
-/* Runs an engine made from the scene, and measures. */
-static void measure(const struct step_gas *gas, struct step_campaign *campaign, const struct touchstone_scene *scene,
-					struct touchstone_engine *engine, struct step_gas_outcome *outcome)
+/* From where counting began, or from the checkpoint, to the end. */
+static void count(struct step_gas_run *run)
 {
-	struct watch watch = {campaign->setup->stop, advance, campaign};
-	struct touchstone_limits limits = {.events = gas->events, .time = INFINITY};
-	outcome->stopped = gas->equilibrate > 0 && !course_equilibrate(engine, gas->equilibrate, &watch);
-	if (outcome->stopped) return;
-	outcome->begun = true;
+	const struct step_gas *gas = run->gas;
+	struct step_gas_outcome *outcome = run->outcome;
+	struct watch watch = {run->watch->stop, advance, run};
+	struct touchstone_limits limits = {.events = gas->events - outcome->inconsistency.events, .time = INFINITY};
 	struct touchstone_observer observer = {inconsistency_see, &outcome->inconsistency};
+	struct touchstone_listener listener = {misreading_test, &outcome->misreading, inconsistency_reach, INFINITY, 0};
+	outcome->begun = true;
 	if (gas->watched) {
-		misreading_begin(&outcome->misreading, scene, engine);
-		touchstone_observe_tests(engine, misreading_test, inconsistency_reach, &outcome->misreading);
+		misreading_begin(&outcome->misreading, &run->scene, run->engine);
 		observer = (struct touchstone_observer){misreading_see, &outcome->misreading};
-	} else {
-		touchstone_observe_tests(engine, inconsistency_test, inconsistency_reach, &outcome->inconsistency);
 	}
-	struct conservation begin = conservation_of(scene, engine);
+	touchstone_observe_tests(run->engine, gas->watched ? &listener : &outcome->inconsistency.listener);
 	double clock = clock_now();
-	outcome->stopped = !course_run(engine, &limits, &observer, &watch);
-	outcome->seconds = clock_now() - clock;
-	struct conservation end = conservation_of(scene, engine);
-	outcome->energy_drift = conservation_energy_drift(&begin, &end);
-	touchstone_status(engine, &outcome->end);
+	outcome->stopped = !course_run(run->engine, &limits, &observer, &watch);
+	touchstone_observe_tests(run->engine, NULL);
+	outcome->seconds += clock_now() - clock;
+	struct conservation end = conservation_of(&run->scene, run->engine);
+	outcome->energy_drift = conservation_energy_drift(&run->begin, &end);
+	touchstone_status(run->engine, &outcome->end);
 	misreading_end(&outcome->misreading);
+	if (outcome->misreading.exhausted) snprintf(outcome->error, sizeof outcome->error, "not enough memory");
+	if (run->kept && outcome->stopped) step_gas_keep(run);
+	if (run->kept && !outcome->stopped) unlink(run->kept);
 }
 
-void step_gas_run(const struct step_gas *gas, struct step_campaign *campaign, struct step_gas_outcome *outcome)
+/* Takes a new engine to where counting begins; false when stopped on the way. */
+static bool begin(struct step_gas_run *run)
 {
-	struct touchstone_scene scene;
+	double collisions = run->gas->equilibrate;
+	run->outcome->stopped = collisions > 0 && !course_equilibrate(run->engine, collisions, run->watch);
+	run->begin = conservation_of(&run->scene, run->engine);
+	return !run->outcome->stopped;
+}
+
+/* The same for one that was kept. */
+static bool go_on(struct step_gas_run *run)
+{
+	if (!run->kept || !step_gas_go_on(run)) return false;
+	const struct watch *watch = run->watch;
+	uint64_t left = run->gas->events - run->outcome->inconsistency.events;
+	touchstone_status(run->engine, &run->outcome->end);
+	if (watch->progress) watch->progress(watch->context, step_gas_events(run->gas) - left, &run->outcome->end);
+	return true;
+}
+
+void step_gas_run(const struct step_gas *gas, uint64_t seed, const char *kept, const struct watch *watch,
+				  struct step_gas_outcome *outcome)
+{
+	struct step_gas_run run = {.gas = gas, .seed = seed, .kept = kept, .watch = watch, .outcome = outcome};
 	*outcome = (struct step_gas_outcome){0};
-	if (!build(gas, campaign->setup->seed, &scene, outcome->error)) return;
-	struct touchstone_engine *engine = touchstone_create(&scene, gas->arithmetic, gas->method, outcome->error);
-	struct touchstone_status status = {0};
-	if (engine) touchstone_status(engine, &status);
-	if (engine && inconsistency_begin(&outcome->inconsistency, status.bits, gas->particles))
-		measure(gas, campaign, &scene, engine, outcome);
-	else if (engine)
+	if (!build(gas, seed, &run.scene, outcome->error)) return;
+	run.engine = touchstone_create(&run.scene, gas->arithmetic, gas->method, outcome->error);
+	if (run.engine) touchstone_status(run.engine, &outcome->end);
+	if (run.engine && !inconsistency_begin(&outcome->inconsistency, outcome->end.bits, gas->particles))
 		snprintf(outcome->error, sizeof outcome->error, "not enough memory");
+	else if (run.engine && (go_on(&run) || begin(&run)))
+		count(&run);
 	inconsistency_end(&outcome->inconsistency);
-	touchstone_destroy(engine);
-	scene_free(&scene);
+	touchstone_destroy(run.engine);
+	scene_free(&run.scene);
 }
 
 void step_gas_command(const struct step_gas *gas, uint64_t seed, char command[320])

@@ -3,9 +3,8 @@
 #ifndef VERIFY_STEP_GAS_H
 #define VERIFY_STEP_GAS_H
 
-#include <stdatomic.h>
-
 #include "figure/figure.h"
+#include "measure/conservation.h"
 #include "measure/course.h"
 #include "measure/inconsistency.h"
 #include "measure/misreading.h"
@@ -26,17 +25,24 @@ struct step_gas_outcome {
 	struct inconsistency inconsistency;
 	struct misreading misreading;
 	struct touchstone_status end;
-	double seconds;      /* wall time, with the observers */
+	double seconds;      /* of one core, with the observers */
 	double energy_drift; /* relative, see measure/conservation.h */
 	bool begun, stopped;
 	char error[320];
 };
 
-/* How far a campaign of several is, while they run side by side. */
-struct step_campaign {
-	const struct figure_setup *setup;
-	_Atomic uint64_t done;
-	uint64_t all; /* events */
+/* One that is under way; what it is made from and what it fills are the caller's. */
+struct step_gas_run {
+	const struct step_gas *gas;
+	uint64_t seed;
+	const char
+		*kept; /* path of the checkpoint in which it is kept when it is stopped, and every so often; NULL: none */
+	const struct watch *watch;
+	struct step_gas_outcome *outcome;
+	struct touchstone_scene scene;
+	struct touchstone_engine *engine;
+	struct conservation begin; /* where counting began */
+	uint64_t since;            /* events since the checkpoint */
 };
 
 /* "square-well" or "square-shoulder". */
@@ -45,8 +51,18 @@ const char *step_gas_name(const struct step_gas *gas);
 /* Events that the gas takes in all. */
 uint64_t step_gas_events(const struct step_gas *gas);
 
-/* Runs it; `outcome` is filled, with one line in its error when that could not be. */
-void step_gas_run(const struct step_gas *gas, struct step_campaign *campaign, struct step_gas_outcome *outcome);
+/* Runs it; `outcome` is filled, with one line in its error when that could not be. A gas that was kept goes on. */
+void step_gas_run(const struct step_gas *gas, uint64_t seed, const char *kept, const struct watch *watch,
+				  struct step_gas_outcome *outcome);
+
+/* All that determines its numbers, on one line. */
+enum { STEP_GAS_KEY = 320 };
+void step_gas_key(const struct step_gas *gas, uint64_t seed, char key[STEP_GAS_KEY]);
+
+/* Writes the checkpoint of a gas that has begun to count inconsistencies; takes one at its start to where it was kept:
+ * another engine, and what has been counted. False when that cannot be, or what is kept is of something else. */
+bool step_gas_keep(const struct step_gas_run *run);
+bool step_gas_go_on(struct step_gas_run *run);
 
 /* The command that shows the same. */
 void step_gas_command(const struct step_gas *gas, uint64_t seed, char command[320]);

@@ -12,8 +12,7 @@ static const struct layer {
 	const char *arithmetic;
 	int bits;
 	uint64_t quick, full; /* events of a point */
-} layers[] = {
-	{"short:12", 12, 20000, 1000000}, {"binary32", 24, 100000, 100000000}, {"binary64", 53, 100000, 100000000}};
+} layers[] = {{"short:12", 12, 20000, 400000}, {"binary32", 24, 100000, 20000000}, {"binary64", 53, 100000, 10000000}};
 
 enum { LAYERS = 3, DENSITIES = 10, RESTITUTIONS = 9, PLANE = DENSITIES * RESTITUTIONS, CHANGES = 3 };
 enum { POINTS = LAYERS * PLANE + CHANGES };

@@ -2,7 +2,7 @@
  * late or put far away, in the papers' absolute form and in the one relative to pages and places. */
 #include "figure/figure.h"
 
-#include "campaign/campaign.h"
+#include "figure/figure_campaign.h"
 #include "measure/horizon_ladder.h"
 #include "measure/three_body.h"
 #include "measure/time_place.h"
@@ -259,14 +259,7 @@ struct result *figure_time_place(const struct figure_setup *setup, char error[51
 {
 	struct sizes sizes = {setup, setup->full ? MOST_VESSELS : 20};
 	const struct campaign campaign = {"time-and-place", sizes.vessels, piece_key, NULL, make_piece, &sizes};
-	json_t *results = campaign_run(&campaign,
-								   &(struct campaign_setup){.folder = setup->folder,
-															.this_revision = true,
-															.threads = setup->threads,
-															.stop = setup->stop,
-															.progress = setup->progress,
-															.context = setup->context},
-								   error);
+	json_t *results = figure_campaign_run(&campaign, setup, error);
 	if (!results) return NULL;
 	struct sight(*sight)[FORMS] = calloc(SITUATIONS, sizeof *sight);
 	struct result *result = sight ? result_new("time-and-place", "Does it matter when and where?") : NULL;

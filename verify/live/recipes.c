@@ -1,5 +1,6 @@
 /* Writes scene files as C, for the live page: its scenes are those of cases/, read by the same reader, and the page
- * needs no reader of its own. Names of scenes in the folder `stress` begin with "stress-". Usage: recipes FILE.yaml...
+ * needs no reader of its own. What only counts (virtual walls) or comes before the scene (equilibration) is left out.
+ * Names of scenes in the folder `stress` begin with "stress-". Usage: recipes FILE.yaml...
  * >recipes.inl */
 #include <stdio.h>
 #include <string.h>
@@ -52,6 +53,23 @@ static void write_particles(const struct scene_recipe *recipe)
 	printf("},\n");
 }
 
+static void write_potentials(const struct scene_recipe *recipe)
+{
+	if (!recipe->potential_count) return;
+	printf("\t\t.potential_count = %zu,\n\t\t.potentials = (const struct touchstone_potential[]){",
+		   recipe->potential_count);
+	for (size_t p = 0; p < recipe->potential_count; p++) {
+		const struct touchstone_potential *potential = &recipe->potentials[p];
+		printf("{{%u, %u}, %a, {%d, %a}, %zu, (const struct touchstone_step[]){", potential->species[0],
+			   potential->species[1], potential->core, (int)potential->restitution.law,
+			   potential->restitution.coefficient, potential->step_count);
+		for (size_t s = 0; s < potential->step_count; s++)
+			printf("{%a, %a}, ", potential->steps[s].distance, potential->steps[s].energy);
+		printf("{0}}}, ");
+	}
+	printf("},\n");
+}
+
 static void write_recipe(const char *prefix, const struct scene_file *file)
 {
 	const struct scene_recipe *recipe = &file->recipe;
@@ -64,6 +82,7 @@ static void write_recipe(const char *prefix, const struct scene_file *file)
 	write_restitution("restitution", recipe->restitution);
 	write_species(recipe);
 	write_walls(recipe);
+	write_potentials(recipe);
 	write_particles(recipe);
 	write_vector("acceleration", recipe->acceleration);
 	const struct scene_convection *convection = &recipe->convection;
@@ -71,9 +90,11 @@ static void write_recipe(const char *prefix, const struct scene_file *file)
 		printf("\t\t.convection = {true, %a, %a, {%a, %a}},\n", convection->kick, convection->neutral,
 			   convection->walls[0], convection->walls[1]);
 	printf("\t\t.thermostat = %a,\n\t\t.packing_limit = %a,\n\t\t.positions = %d,\n\t\t.velocities = %d,\n"
-		   "\t\t.temperature = %a,\n\t\t.form = %d,\n\t}},\n",
+		   "\t\t.temperature = %a,\n\t\t.form = %d,\n\t\t.clock = %a,\n",
 		   recipe->thermostat, recipe->packing_limit, (int)recipe->positions, (int)recipe->velocities,
-		   recipe->temperature, (int)recipe->form);
+		   recipe->temperature, (int)recipe->form, recipe->clock);
+	printf("\t\t.contact_time = %a,\n\t\t.shrinking = %a,\n\t\t.search_step = %a,\n\t}},\n", recipe->contact_time,
+		   recipe->shrinking, recipe->search_step);
 }
 
 int main(int argc, char **argv)
@@ -81,13 +102,12 @@ int main(int argc, char **argv)
 	for (int i = 1; i < argc; i++) {
 		char error[STORE_ERROR];
 		struct scene_file *file = scene_file_open(argv[i], 0, NULL, error);
-		bool drawable = file && file->recipe.dimensions < 3 && file->recipe.potential_count == 0;
-		if (!drawable)
-			fprintf(stderr, "recipes: %s\n", file ? "accepted: scenes in 1 or 2 dimensions without potentials" : error);
-		else
-			write_recipe(strstr(argv[i], "stress/") ? "stress-" : "", file);
+		if (!file) {
+			fprintf(stderr, "recipes: %s\n", error);
+			return 2;
+		}
+		write_recipe(strstr(argv[i], "stress/") ? "stress-" : "", file);
 		scene_file_close(file);
-		if (!drawable) return 2;
 	}
 	return 0;
 }

@@ -4,13 +4,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/potential.h"
+
 static const uint32_t nobody = UINT32_MAX;
 static const double visible = 0.1; /* of the contact distance */
 
-bool witness_begin(struct witness *witness, size_t particles, int bits)
+/* The largest number whose rounding may move a particle: 1, or in the absolute form a coordinate or the distance
+ * that it flies in the time on the clock. */
+static double largest(const struct touchstone_scene *scene)
 {
+	double most = 1;
+	for (size_t p = 0; scene->form == TOUCHSTONE_ABSOLUTE && p < scene->particle_count; p++)
+		for (int axis = 0; axis < scene->dimensions; axis++) {
+			const struct touchstone_particle *particle = &scene->particles[p];
+			most = fmax(most, fmax(fabs(particle->position[axis]), scene->clock * fabs(particle->velocity[axis])));
+		}
+	return most;
+}
+
+bool witness_begin(struct witness *witness, const struct touchstone_scene *scene, int bits)
+{
+	size_t particles = scene->particle_count;
 	*witness = (struct witness){
-		.rounding = fmax(ldexp(32, 1 - bits), 0x1p-44),
+		.rounding = fmax(ldexp(32 * largest(scene), 1 - bits), 0x1p-44),
 		.first_failure = NAN,
 		.first_sight = NAN,
 		.last_time = -INFINITY,
@@ -51,6 +67,7 @@ void witness_see(struct witness *witness, struct touchstone_engine *engine, cons
 	witness->last_time = event->time;
 	if (event->kind != TOUCHSTONE_CONTACT) {
 		witness->met[first] = nobody;
+		if (event->kind != TOUCHSTONE_WALL && event->kind != TOUCHSTONE_CROSSING) witness->met[second] = nobody;
 		return;
 	}
 	witness->repeated += witness->met[first] == second && witness->met[second] == first;
@@ -87,9 +104,7 @@ bool witness_look(struct witness *witness, const struct touchstone_scene *now, d
 			spatial_hash_insert(&hash, p);
 			bool inside = deep > witness->rounding;
 			if (inside) {
-				double contact = (now->species[now->particles[p].species].diameter +
-								  now->species[now->particles[other].species].diameter) /
-								 2;
+				double contact = potential_core(now, now->particles[p].species, now->particles[other].species);
 				float share = (float)(deep / contact);
 				note(witness, p, other, deep / contact, time);
 				if (share > depth[p]) depth[p] = share;

@@ -2,8 +2,8 @@
  * looks.
  *
  * An overlap counts as a failure when it is deeper than rounding explains: more than 32 units in the last place of 1 in
- * the working arithmetic (stable stays below that, as verify/live/test measures), and as visible from a tenth of the
- * contact distance on. */
+ * the working arithmetic (stable stays below that, as verify/live/test measures), or in the absolute form of the
+ * largest coordinate; and as visible from a tenth of the contact distance on. */
 #ifndef VERIFY_WITNESS_H
 #define VERIFY_WITNESS_H
 
@@ -31,8 +31,9 @@ struct witness {
 	uint32_t count;
 };
 
-/* Begins with an engine's start state; end it with witness_end. False when there is no memory. */
-bool witness_begin(struct witness *witness, size_t particles, int bits);
+/* Begins with a scene's start state, to be run in an arithmetic of so many bits; end it with witness_end. False when
+ * there is no memory. */
+bool witness_begin(struct witness *witness, const struct touchstone_scene *scene, int bits);
 void witness_end(struct witness *witness);
 
 /* Sees an event. */

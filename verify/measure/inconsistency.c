@@ -7,9 +7,19 @@
 
 static const uint32_t nobody = UINT32_MAX;
 
+/* Excesses up to this may have another sign than the exact ones, of positions in so many bits. */
+static double doubtful(int bits)
+{
+	return ldexp(16, -bits);
+}
+
 bool inconsistency_begin(struct inconsistency *inconsistency, int bits, size_t particles)
 {
-	*inconsistency = (struct inconsistency){.bits = bits, .met = {nobody, nobody}};
+	*inconsistency = (struct inconsistency){
+		.bits = bits,
+		.listener = {inconsistency_test, inconsistency, inconsistency_reach, doubtful(bits), 0},
+		.met = {nobody, nobody},
+	};
 	inconsistency->last = malloc(particles * sizeof *inconsistency->last);
 	for (size_t p = 0; inconsistency->last && p < particles; p++)
 		inconsistency->last[p] = (struct inconsistency_last){0, nobody, nobody};
@@ -25,7 +35,6 @@ void inconsistency_end(struct inconsistency *inconsistency)
 void inconsistency_merge(struct inconsistency *into, const struct inconsistency *from)
 {
 	into->events += from->events;
-	into->tests += from->tests;
 	for (int kind = 0; kind < INCONSISTENCIES; kind++) into->count[kind] += from->count[kind];
 }
 
@@ -79,7 +88,7 @@ void inconsistency_see(void *context, struct touchstone_engine *engine, const st
 static int read_state(const struct inconsistency *inconsistency, const struct touchstone_engine *engine,
 					  const struct touchstone_test *test)
 {
-	if (fabs(test->excess) > ldexp(16, -inconsistency->bits)) return test->within;
+	if (fabs(test->excess) > doubtful(inconsistency->bits)) return test->within;
 	return stands_within(engine) ? test->step + 1 : test->step;
 }
 
@@ -98,7 +107,6 @@ static enum inconsistency_kind kind_of(const struct inconsistency *inconsistency
 void inconsistency_test(void *context, struct touchstone_engine *engine, const struct touchstone_test *test)
 {
 	struct inconsistency *inconsistency = context;
-	inconsistency->tests++;
 	if (read_state(inconsistency, engine, test) == test->state) return;
 	inconsistency->count[kind_of(inconsistency, test)]++;
 	struct inconsistency_last *first = &inconsistency->last[test->first], *second = &inconsistency->last[test->second];

@@ -4,9 +4,9 @@
  *
  *	struct inconsistency inconsistency;
  *	if (!inconsistency_begin(&inconsistency, bits, particles)) ...
- *	touchstone_observe_tests(engine, inconsistency_test, inconsistency_reach, &inconsistency);
+ *	touchstone_observe_tests(engine, &inconsistency.listener);
  *	touchstone_run(engine, &limits, &(struct touchstone_observer){inconsistency_see, &inconsistency});
- *	touchstone_observe_tests(engine, NULL, 0, NULL);
+ *	touchstone_observe_tests(engine, NULL);
  *	inconsistency_end(&inconsistency); */
 #ifndef VERIFY_INCONSISTENCY_H
 #define VERIFY_INCONSISTENCY_H
@@ -35,7 +35,8 @@ struct inconsistency_last {
 
 struct inconsistency {
 	int bits;                            /* of the working arithmetic */
-	uint64_t events, tests;              /* seen; tests: of pairs near a step or within one */
+	struct touchstone_listener listener; /* hears of all tests whose state may not be that which the positions say */
+	uint64_t events;                     /* seen */
 	uint64_t count[INCONSISTENCIES];     /* how often */
 	struct inconsistency_last *last;     /* per particle */
 	struct inconsistency_last before[2]; /* of the particles of the event at hand, what came before it */
@@ -46,7 +47,8 @@ struct inconsistency {
 bool inconsistency_begin(struct inconsistency *inconsistency, int bits, size_t particles);
 void inconsistency_end(struct inconsistency *inconsistency);
 
-/* For touchstone_run and touchstone_observe_tests, with the measurement as the context. */
+/* For touchstone_run, and for a listener that hears of no less; with the measurement, which stays where it began, as
+ * the context. */
 void inconsistency_see(void *inconsistency, struct touchstone_engine *engine, const struct touchstone_event *event);
 void inconsistency_test(void *inconsistency, struct touchstone_engine *engine, const struct touchstone_test *test);
 

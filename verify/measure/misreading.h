@@ -42,7 +42,7 @@ void misreading_begin(struct misreading *misreading, const struct touchstone_sce
 					  struct touchstone_engine *engine);
 void misreading_end(struct misreading *misreading);
 
-/* For touchstone_run and touchstone_observe_tests, with the watcher as the context. */
+/* For touchstone_run, and for a listener to all tests within inconsistency_reach; with the watcher as the context. */
 void misreading_see(void *misreading, struct touchstone_engine *engine, const struct touchstone_event *event);
 void misreading_test(void *misreading, struct touchstone_engine *engine, const struct touchstone_test *test);
 

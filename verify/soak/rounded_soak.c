@@ -1,5 +1,5 @@
-/* `rounded` against the exact oracle, for as many questions as one has time for: `make soak` asks 10^9, or
- * `make soak QUESTIONS=1e7`. Three in four are random balls that approach, touch, graze or fall; the others are the
+/* `rounded` against the exact oracle, for as many questions as one has time for: `rounded_soak 1e9` asks that many, and
+ * `make soak` until its share of the time is over. Three in four are random balls that approach, touch, graze or fall; the others are the
  * families that were built to be hard, in turn. Ctrl-C ends it with what was found so far. Exit status: 0 when none was
  * wrong, 1 when one was, 2 for wrong usage. */
 #include <inttypes.h>

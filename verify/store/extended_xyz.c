@@ -300,14 +300,15 @@ void extended_xyz_free(struct extended_xyz *file)
 	*file = (struct extended_xyz){0};
 }
 
-static void write_frame(FILE *stream, const struct touchstone_scene *scene, const uint32_t *captured)
+void extended_xyz_frame(FILE *stream, const struct touchstone_scene *scene, double time, const uint32_t *captured)
 {
 	double side[3] = {1, 1, 1};
 	for (int axis = 0; axis < scene->dimensions; axis++) side[axis] = scene->box[axis];
 	fprintf(stream, "%zu\nLattice=\"%.17g 0 0 0 %.17g 0 0 0 %.17g\" Origin=\"%.17g %.17g %.17g\" pbc=\"%c %c %c\" ",
 			scene->particle_count, side[0], side[1], side[2], -side[0] / 2, -side[1] / 2, -side[2] / 2,
 			"FT"[scene->periodic[0]], "FT"[scene->periodic[1]], "FT"[scene->periodic[2]]);
-	fprintf(stream, "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1%s\n", captured ? ":captured:I:1" : "");
+	fprintf(stream, "Time=%.17g Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1%s\n", time,
+			captured ? ":captured:I:1" : "");
 	for (size_t p = 0; p < scene->particle_count; p++) {
 		const struct touchstone_particle *particle = &scene->particles[p];
 		const struct touchstone_species *species = &scene->species[particle->species];
@@ -324,6 +325,6 @@ bool extended_xyz_write(const char *path, const struct touchstone_scene *scene, 
 {
 	struct aside file;
 	if (!aside_open(&file, error, "%s", path)) return false;
-	write_frame(file.stream, scene, captured);
+	extended_xyz_frame(file.stream, scene, scene->clock, captured);
 	return aside_keep(&file, error);
 }

@@ -3,6 +3,8 @@
 #ifndef TOUCHSTONE_EXTENDED_XYZ_H
 #define TOUCHSTONE_EXTENDED_XYZ_H
 
+#include <stdio.h>
+
 #include "store/text.h"
 #include "touchstone.h"
 
@@ -32,8 +34,11 @@ bool extended_xyz_read(struct extended_xyz *file, const char *path, int dimensio
 					   const struct extended_xyz_species *known, char error[STORE_ERROR]);
 void extended_xyz_free(struct extended_xyz *file);
 
-/* Writes the particles of a scene, species by number from 1, every number with all its digits; and, unless it is NULL,
- * how many partners each has captured, in a column of that name, for viewers to colour by. */
+/* Writes the particles of a scene at a time as one frame, species by number from 1, every number with all its digits;
+ * and, unless it is NULL, how many partners each has captured, in a column of that name, for viewers to colour by. */
+void extended_xyz_frame(FILE *stream, const struct touchstone_scene *scene, double time, const uint32_t *captured);
+
+/* The same as a file of one frame, at the scene's clock. */
 bool extended_xyz_write(const char *path, const struct touchstone_scene *scene, const uint32_t *captured,
 						char error[STORE_ERROR]);
 

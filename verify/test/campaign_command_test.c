@@ -44,13 +44,17 @@ static void pieces_are_what_run_tells(void **state)
 	(void)state;
 	assert_int_equal(json_array_size(expected), RUNS);
 	const json_t *last = json_array_get(expected, RUNS - 1);
-	json_t *run = program_json(program_run("run hard-spheres --set particles=32 --set start.temperature=2 --events 3e3 "
-										   "--set density=0.4 --arithmetic short:12 --seed 7 --measure "
-										   "impact,conservation --json -"),
+	json_t *run = program_json(program_run("run square-well --set particles=32 --set start.temperature=2 --events 1e3 "
+										   "--set equilibrate=5 --set density=0.4 --arithmetic short:12 --seed 7 "
+										   "--measure impact,conservation,three-body,failure,states "
+										   "--against mpfr:100 --json -"),
 							   0);
-	static const char *const same[] = {"digest", "seed", "arithmetic", "impact", "conservation", "events", "verdict"};
+	static const char *const same[] = {"digest",  "seed",   "arithmetic", "impact",  "conservation", "three_body",
+									   "failure", "states", "horizon",    "parting", "events",       "verdict"};
 	for (size_t s = 0; s < sizeof same / sizeof *same; s++)
-		if (!json_equal(json_object_get(run, same[s]), json_object_get(last, same[s]))) fail_msg("%s differs", same[s]);
+		if (!json_object_get(run, same[s]) ||
+			!json_equal(json_object_get(run, same[s]), json_object_get(last, same[s])))
+			fail_msg("%s differs", same[s]);
 	assert_string_equal(json_text(json_object_get(last, "point"), "arithmetic"), "short:12");
 	json_decref(run);
 }
@@ -71,7 +75,7 @@ static void tables_hold_what_runs_tell(void **state)
 	for (char *cell, *cells = line; (cell = strsep(&cells, ",")); at++)
 		if (strcmp(cell, "time") == 0) column = at;
 	line = strtok_r(NULL, "\n", &rest), line = strtok_r(NULL, "\n", &rest); /* density 0.2, short:12 */
-	assert_int_equal(strncmp(line, "0.2,short:12,3,3,0,0,0,", 23), 0);
+	assert_int_equal(strncmp(line, "0.2,short:12,3,3,0,0,0,3,0,", 27), 0);
 	double told[3];
 	for (at = 0; at < column + 3; at++) {
 		char *cell = strsep(&line, ",");
@@ -87,6 +91,22 @@ static void tables_hold_what_runs_tell(void **state)
 	free(points);
 	struct said said = program_run("report --results %s/tables --output %s/page", folder, folder);
 	if (said.status != 0) fail_msg("%s", said.err);
+	said_free(&said);
+}
+
+/* A run in so few bits gains energy, whatever its verdict. */
+static void failures_are_findings(void **state)
+{
+	(void)state;
+	folder_put(folder, "fails.yaml",
+			   "scene: hard-spheres\nset: {particles: 108, method: rewind, arithmetic: 'short:8', equilibrate: 5}\n"
+			   "events: 2000\nmeasures: [failure]\n");
+	struct said said = program_run("campaign %s/fails.yaml --results %s/fails", folder, folder);
+	char *table = folder_text(folder, "fails/fails-runs.csv");
+	if (said.status != 1 || !strstr(table, "gains energy")) fail_msg("status %d: %s%s", said.status, table, said.err);
+	assert_int_equal(strncmp(table, "seed,verdict,digest,failure,", 28), 0);
+	assert_non_null(strstr(said.out, "survived"));
+	free(table);
 	said_free(&said);
 }
 
@@ -112,7 +132,8 @@ static void bad_campaigns_have_a_line(void **state)
 		{"scene: hard-spheres\nseeds: [1, 1]\n", "bad.yaml:2: seeds: 1 is there twice"},
 		{"scene: hard-spheres\nseeds: [1..900000, 900000]\n", "bad.yaml:2: seeds: 900000 is there twice"},
 		{"scene: hard-spheres\nseeds: 1..1e9\n", "bad.yaml:2: seeds: makes more than 1000000 runs"},
-		{"scene: hard-spheres\nmeasures: [speed]\n", "bad.yaml:2: measures[0]: 'speed' is unknown"},
+		{"scene: hard-spheres\nmeasures: [impact,\n  speed]\n", "bad.yaml:3: measures[1]: 'speed' is unknown"},
+		{"scene: hard-spheres\nevents: 9\nagainst: binary32\n", "bad.yaml:3: against: "},
 		{"scene: hard-spheres\ngrid: &a {density: [*a]}\n", "bad.yaml:1: YAML alias unsupported"},
 		{"scene: hard-spheres\ngrid: {density: [[[[[[[[[[1]]]]]]]]]]}\n", "density: more than can be said on one line"},
 		{"scene: [hard-spheres\n", "not YAML"},
@@ -129,6 +150,11 @@ static void bad_campaigns_have_a_line(void **state)
 	program_refused(program_run("campaign %s/small.yaml --shard 1/4 --json -", folder), "--json");
 	program_refused(program_run("merge one"), "nothing to merge");
 	program_refused(program_run("merge %s/out.pieces %s/bad.yaml", folder, folder), "bad.yaml: ");
+	folder_put(folder, "new.pieces", "");
+	struct said said = program_run("merge %s/out.pieces %s/new.pieces", folder, folder);
+	assert_int_equal(said.status, 2);
+	assert_non_null(strstr(said.err, "none of these stores has a first line yet"));
+	said_free(&said);
 	assert_int_equal(folder_count(folder, "out.pieces"), 0);
 }
 
@@ -162,6 +188,11 @@ static void contradictions_are_findings(void **state)
 	assert_int_equal(said.status, 1);
 	assert_non_null(strstr(said.out, "3 pieces, 1 of them new"));
 	said_free(&said);
+	folder_put(folder, "new.pieces", ""); /* of a shard that was killed before it had written anything */
+	said = program_run("merge %s/d.pieces %s/new.pieces %s/c1.pieces", folder, folder, folder);
+	assert_int_equal(said.status, 0);
+	assert_non_null(strstr(said.out, "2 pieces, 2 of them new"));
+	said_free(&said);
 }
 
 int main(void)
@@ -169,7 +200,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(threads_shards_and_merges_agree), cmocka_unit_test(pieces_are_what_run_tells),
 		cmocka_unit_test(tables_hold_what_runs_tell),      cmocka_unit_test(bad_campaigns_have_a_line),
-		cmocka_unit_test(contradictions_are_findings),
+		cmocka_unit_test(contradictions_are_findings),     cmocka_unit_test(failures_are_findings),
 	};
 	return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -9,15 +9,17 @@ static json_t *expected; /* the runs of the small campaign, made by one thread *
 
 enum { RUNS = 12 };
 
+/* Everything that can be measured of a run. */
 static const char small_campaign[] = "title: small\n"
-									 "scene: hard-spheres\n"
-									 "set: {particles: 32, start.temperature: 2}\n"
+									 "scene: square-well\n"
+									 "set: {particles: 32, start.temperature: 2, equilibrate: 5}\n"
 									 "grid:\n"
 									 "  density: [0.2, 0.4]\n"
 									 "  arithmetic: [binary64, 'short:12']\n"
 									 "seeds: [1..2, 7]\n"
-									 "events: 3e3\n"
-									 "measures: [impact, conservation]\n";
+									 "events: 1e3\n"
+									 "measures: [impact, conservation, three-body, failure, states]\n"
+									 "against: mpfr:100\n";
 
 /* Slow enough to be killed on the way, for each run some 50 ms. */
 static const char slow_campaign[] = "scene: hard-spheres\n"

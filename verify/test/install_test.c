@@ -159,6 +159,7 @@ static void completion_offers_what_there_is(void **state)
 	assert_completes("run --arithm", "--arithmetic");
 	assert_completes("run --method nai", "naive");
 	assert_completes("run --method = nai", "naive");
+	assert_completes("run --measure thr", "three-body");
 	assert_completes("run hard-spheres --arithmetic bin", "binary32 binary64 binary128");
 	assert_completes("campaign rest", "restitution-density");
 	assert_completes("reproduce fig7", "fig7");

@@ -84,7 +84,8 @@ static void overlaps_are_counted(void **state)
 										   .box = {16, 16}};
 	struct witness witness;
 	float depth[4];
-	assert_true(witness_begin(&witness, 4, 24));
+	fill(particles, 0);
+	assert_true(witness_begin(&witness, &scene, 24));
 	assert_true(witness.rounding == 0x1p-18);
 	fill(particles, 0x1p-19);
 	assert_true(witness_look(&witness, &scene, 1, depth));
@@ -135,7 +136,7 @@ static void runs_are_seen(void **state)
 	struct touchstone_engine *engine = touchstone_create(&scene, "binary64", "stable", error);
 	struct witness witness;
 	assert_non_null(engine);
-	assert_true(witness_begin(&witness, 3, 53));
+	assert_true(witness_begin(&witness, &scene, 53));
 	struct touchstone_observer observer = {see, &witness};
 	touchstone_run(engine, &(struct touchstone_limits){100, INFINITY, NULL}, &observer);
 	assert_true(witness.seen == 100 && witness.repeated == 0 && witness.parting == 0 && witness.backwards == 0);

@@ -172,8 +172,8 @@ static void verdicts_have_statuses(void **state)
 		{"run cases/bouncing-ball.yaml --json -", "collapsed", "particle 0", 0},
 		{"run three-body --json -", "done", "no event is left", 0},
 		{"run three-body --method naive --json -", "halted", "negative", 1},
-		{"run inelastic-spheres --set particles=100 --method naive --arithmetic short:8 --json -", "halted",
-		 "during equilibration: ", 1},
+		{"run inelastic-spheres --set particles=100 --method naive --arithmetic short:8 --measure failure --json -",
+		 "halted", "during equilibration: ", 1},
 		{"run cradle.yaml --events 10 --json -", "done", "", 0},
 		{"run cradle --events 0 --json -", "done", "", 0},
 	};
@@ -182,6 +182,8 @@ static void verdicts_have_statuses(void **state)
 		assert_string_equal(json_text(json, "verdict"), runs[r].verdict);
 		assert_non_null(strstr(json_text(json, "reason"), runs[r].reason));
 		assert_true(!strstr(runs[r].reason, "equilibration") || json_number(json, "events") == 0);
+		const json_t *failure = json_object_get(json, "failure");
+		if (failure) assert_string_equal(json_text(failure, "what"), "halts");
 		json_decref(json);
 	}
 }

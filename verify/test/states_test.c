@@ -80,7 +80,8 @@ static void inconsistencies_are_counted(void **state)
 	if (!engine) fail_msg("%s", error);
 	struct both both = {0};
 	assert_true(inconsistency_begin(&both.measured, 12, PARTICLES));
-	touchstone_observe_tests(engine, hear, inconsistency_reach, &both);
+	struct touchstone_listener listener = {hear, &both, inconsistency_reach, INFINITY, 0};
+	touchstone_observe_tests(engine, &listener);
 	uint64_t events = brief ? 5000 : 40000;
 	touchstone_run(engine, &(struct touchstone_limits){events, INFINITY, NULL},
 				   &(struct touchstone_observer){see, &both});
@@ -89,7 +90,7 @@ static void inconsistencies_are_counted(void **state)
 	for (int kind = 0; kind < INCONSISTENCIES; kind++)
 		print_message(" %s %llu", inconsistency_name((enum inconsistency_kind)kind), (unsigned long long)count[kind]);
 	print_message("\n");
-	assert_true(both.measured.events == events && both.measured.tests == both.told);
+	assert_true(both.measured.events == events && listener.tests == both.told);
 	assert_true(count[INCONSISTENT_EXECUTED] == both.executed);
 	assert_true(count[INCONSISTENT_AFTER] + count[INCONSISTENT_LATER] + count[INCONSISTENT_OTHERS] == both.wrong);
 	for (int kind = 0; kind < INCONSISTENCIES; kind++) assert_true(count[kind] > 0 && count[kind] < events);
@@ -105,7 +106,7 @@ static void inconsistencies_are_counted(void **state)
 
 /* ------------------------------------------------------------------ the watcher */
 
-static struct step_gas_outcome watch(const char *method, const char *arithmetic, bool shoulder)
+static struct step_gas_outcome watched(const char *method, const char *arithmetic, bool shoulder)
 {
 	const struct step_gas gas = {.shoulder = shoulder,
 								 .particles = 500,
@@ -114,10 +115,8 @@ static struct step_gas_outcome watch(const char *method, const char *arithmetic,
 								 .method = method,
 								 .events = 5000,
 								 .watched = true};
-	struct figure_setup setup = {.seed = 1, .threads = 1};
-	struct step_campaign campaign = {.setup = &setup, .all = gas.events};
 	struct step_gas_outcome outcome;
-	step_gas_run(&gas, &campaign, &outcome);
+	step_gas_run(&gas, 1, NULL, &(struct watch){0}, &outcome);
 	if (*outcome.error) fail_msg("%s", outcome.error);
 	assert_true(outcome.begun && !outcome.stopped && !outcome.misreading.exhausted);
 	assert_true(outcome.misreading.events == outcome.end.events);
@@ -130,7 +129,7 @@ static void tracked_states_are_never_misread(void **state)
 	static const char *const arithmetics[] = {"short:16", "binary64"};
 	for (int a = 0; a < 2; a++)
 		for (int shoulder = 0; shoulder < 2; shoulder++) {
-			struct step_gas_outcome outcome = watch("stable", arithmetics[a], shoulder);
+			struct step_gas_outcome outcome = watched("stable", arithmetics[a], shoulder);
 			assert_true(outcome.misreading.repeats == 0 && outcome.misreading.misses == 0);
 			assert_true(outcome.misreading.energy == 0 && outcome.misreading.stuck.event == 0);
 			if (a == 1) assert_true(fabs(outcome.energy_drift) < 1e-13);
@@ -142,7 +141,7 @@ static void tracked_states_are_never_misread(void **state)
 static void positional_is_stuck(void **state)
 {
 	(void)state;
-	struct step_gas_outcome outcome = watch("positional", "binary64", true);
+	struct step_gas_outcome outcome = watched("positional", "binary64", true);
 	const struct misreading *misreading = &outcome.misreading;
 	char text[200];
 	print_message("%s\n", misreading_tell(&misreading->repeated, text));
@@ -161,7 +160,7 @@ static void corrections_fail_by_third_particles(void **state)
 	(void)state;
 	static const char *const methods[] = {"stretch", "nudge", "last-event"};
 	for (int m = 0; m < 3; m++) {
-		struct step_gas_outcome outcome = watch(methods[m], "short:16", false);
+		struct step_gas_outcome outcome = watched(methods[m], "short:16", false);
 		char text[200];
 		print_message("%s: %s\n", methods[m], misreading_tell(&outcome.misreading.missed, text));
 		assert_true(outcome.misreading.misses > 0);
@@ -180,7 +179,7 @@ static void commands_show_the_same(void **state)
 								 .method = "positional",
 								 .events = 5000,
 								 .watched = true};
-	struct step_gas_outcome outcome = watch(gas.method, gas.arithmetic, gas.shoulder);
+	struct step_gas_outcome outcome = watched(gas.method, gas.arithmetic, gas.shoulder);
 	char command[320], text[200];
 	step_gas_command(&gas, 1, command);
 	assert_true(strncmp(command, "touchstone ", 11) == 0);
@@ -196,6 +195,64 @@ static void commands_show_the_same(void **state)
 	said_free(&said);
 }
 
+/* ------------------------------------------------------------------ what is kept of a gas under way */
+
+/* Asks for an end after so many events, those before a checkpoint included. */
+struct impatient {
+	uint64_t left;
+	int stop;
+};
+
+static void grow_impatient(void *context, uint64_t more, const struct touchstone_status *now)
+{
+	(void)now;
+	struct impatient *impatient = context;
+	impatient->left -= more < impatient->left ? more : impatient->left;
+	impatient->stop = impatient->left == 0;
+}
+
+static bool file_exists(const char *path)
+{
+	return access(path, F_OK) == 0;
+}
+
+static void stopped_gases_go_on(void **state)
+{
+	(void)state;
+	const struct step_gas gas = {.particles = 500,
+								 .form = TOUCHSTONE_RELATIVE,
+								 .arithmetic = "short:14",
+								 .method = "stable",
+								 .equilibrate = 2,
+								 .events = 20000};
+	char *folder = folder_new(), path[60];
+	snprintf(path, sizeof path, "%s/gas.checkpoint", folder);
+	struct step_gas_outcome whole, parts;
+	step_gas_run(&gas, 7, NULL, &(struct watch){0}, &whole);
+	int calls = 0;
+	do {
+		struct impatient impatient = {.left = 6000 * (1 + (uint64_t)calls)};
+		const struct watch watch = {&impatient.stop, grow_impatient, &impatient};
+		step_gas_run(&gas, 7, path, &watch, &parts);
+		assert_true(!*parts.error && file_exists(path) == parts.stopped);
+		if (calls++ == 0) { /* another gas does not take it for its own */
+			struct step_gas_outcome other;
+			impatient = (struct impatient){.left = 1};
+			step_gas_run(&gas, 8, path, &watch, &other);
+			assert_true(other.inconsistency.events < parts.inconsistency.events && file_exists(path));
+		}
+	} while (parts.stopped && calls < 10);
+	print_message("%d calls, %llu inconsistencies by others\n", calls,
+				  (unsigned long long)whole.inconsistency.count[INCONSISTENT_OTHERS]);
+	assert_true(calls > 2);
+	assert_true(!parts.stopped && whole.inconsistency.count[INCONSISTENT_OTHERS] > 0);
+	assert_memory_equal(parts.inconsistency.count, whole.inconsistency.count, sizeof whole.inconsistency.count);
+	assert_true(parts.end.digest == whole.end.digest && parts.end.events == gas.events);
+	assert_true(parts.energy_drift == whole.energy_drift && parts.inconsistency.events == gas.events);
+	assert_int_equal(folder_count(folder, ""), 0);
+	folder_remove(folder);
+}
+
 int main(void)
 {
 	brief = getenv("TOUCHSTONE_BRIEF");
@@ -203,7 +260,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(inconsistencies_are_counted), cmocka_unit_test(tracked_states_are_never_misread),
 		cmocka_unit_test(positional_is_stuck),         cmocka_unit_test(corrections_fail_by_third_particles),
-		cmocka_unit_test(commands_show_the_same),
+		cmocka_unit_test(commands_show_the_same),      cmocka_unit_test(stopped_gases_go_on),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

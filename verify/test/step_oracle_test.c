@@ -210,7 +210,8 @@ static void events_are_the_oracles(void **state)
 			struct trial *trial = calloc(1, sizeof *trial);
 			trial->method = ways[w].method, trial->bits = ways[w].bits;
 			trial->potential = &potentials[p], trial->oracle = oracle;
-			touchstone_observe_tests(engine, hear, INFINITY, trial);
+			struct touchstone_listener listener = {hear, trial, INFINITY, INFINITY, 0};
+			touchstone_observe_tests(engine, &listener);
 			struct touchstone_limits limits = {120, INFINITY, NULL};
 			assert_int_equal(touchstone_run(engine, &limits, &(struct touchstone_observer){see, trial}),
 							 TOUCHSTONE_DONE);

@@ -101,9 +101,11 @@ static void what_is_wrong_is_said_with_its_place(void **state)
 		{14, 14, "    measures: [{measure: missed}, {measure: missed}]", "measured already"},
 		{14, 14, "    measures: [{measure: missed, at_most: none}]", "'none'; accepted: a number"},
 		{16, 16, "    figure: fig99", "'fig99'; accepted: one that `touchstone list figures` has"},
+		{13, 13, "    size: full", "means nothing beside `grade`"},
+		{16, 17, "    figure: fig7\n    size: huge", "'huge'; accepted: quick, full"},
 		{17, 17, "    measures: [{measure: proportion}]", "claim: missing; accepted: words of a claim"},
 		{1, 1, "false_alarms: 0.5", "accepted: a number, 1e-09 to 0.1"},
-				{14, 14, "    measures: 3", "one value; accepted: a list"},
+		{14, 14, "    measures: 3", "one value; accepted: a list"},
 	};
 	struct suite *suite = open_with(0, "");
 	if (!suite) fail_msg("%s", error);

@@ -8,7 +8,8 @@ static void open_again(const char *path, const struct piece_store *before)
 {
 	char error[512];
 	json_t *result = json_pack("{s:f}", "third", 1.0 / 3);
-	struct piece_store *store = piece_store_open(path, piece_store_campaign(before), error);
+	const char *campaign = piece_store_campaign(before);
+	struct piece_store *store = piece_store_open(path, campaign ? campaign : "begun here", error);
 	if (!store || !json_equal(piece_store_lines(store), piece_store_lines(before))) abort();
 	if (!piece_store_add(store, "a new piece", result, error) || !piece_store_close(store, error)) abort();
 	store = piece_store_read(path, NULL, error);

@@ -1,0 +1,162 @@
+/* In which cell a particle is looked for, and how long it stays there. What no event can tell from its position: a cell
+ * may be wider than a search needs, and then a particle is not moved to the next one at the face, but where it has
+ * strayed so far beyond that two particles which have strayed towards each other are still not missed. By then it may
+ * go on along other axes too. A straight flight so passes from cell to cell less than half as often. */
+
+/* Where the last event left a particle along an axis, from the low end of the box. */
+static double coordinate_in_box(const struct touchstone_engine *engine, uint32_t i, int axis)
+{
+	double place = engine->place[i].index[axis] * engine->place_width[axis] + engine->box[axis] / 2;
+	return to_double(engine->body[i].position[axis]) + place;
+}
+
+/* How long after its last event a particle passes a face `gap` ahead of where that event left it, under constant
+ * acceleration, if it does so after `passed`; INFINITY if it does not. */
+static double crossing_time(double gap, double speed, double acceleration, double passed)
+{
+	if (acceleration == 0) return speed > 0 ? gap / speed : INFINITY;
+	double radicand = speed * speed + 2 * acceleration * gap;
+	if (radicand < 0 || (radicand == 0 && acceleration < 0)) /* out of reach, or a touch that goes no further */
+		return acceleration < 0 ? INFINITY : fmax(passed, -speed / acceleration);
+	double end = sqrt(radicand);
+	double time = speed > 0 ? 2 * gap / (speed + end) : (end - speed) / acceleration;
+	if (time >= passed) return time;
+	double gap_now = gap - passed * (speed + acceleration / 2 * passed);
+	return gap_now <= 0 && speed + acceleration * passed > 0 ? passed : INFINITY;
+}
+
+/* How long after its last event a particle leaves its cell along an axis, and whether by the upper face. */
+static double leaving_along(const struct touchstone_engine *engine, uint32_t i, int axis, bool *upper)
+{
+	double side = engine->cell_side[axis], speed = to_double(engine->body[i].velocity[axis]);
+	double position = coordinate_in_box(engine, i, axis);
+	int cell = engine->itinerary[i].cell[axis];
+	bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
+	bool closed_low = ends && cell == 1, closed_high = ends && cell == engine->cells.count[axis];
+	double low = (cell - 1) * side - engine->stray[axis], high = cell * side + engine->stray[axis];
+	if (!engine->accelerated) { /* without branches that a processor would have to guess */
+		*upper = speed > 0;
+		double time = ((*upper ? high : low) - position) / speed;
+		bool never = (*upper ? closed_high : closed_low) | (speed == 0);
+		return never ? INFINITY : time;
+	}
+	double gravity = to_double(engine->acceleration[axis]), passed = engine->itinerary[i].entered;
+	double up = INFINITY, down = INFINITY;
+	if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
+	if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
+	*upper = up < down;
+	return *upper ? up : down;
+}
+
+/* How long after its last event a particle leaves the cell it is in, and by which face; INFINITY if it never does. */
+static double leaving_wait(const struct touchstone_engine *engine, uint32_t i, uint8_t *next)
+{
+	double soonest = INFINITY;
+	int face = 0;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		bool upper;
+		double time = leaving_along(engine, i, axis, &upper);
+		face = time < soonest ? 1 + 2 * axis + upper : face;
+		soonest = time < soonest ? time : soonest;
+	}
+	*next = (uint8_t)face;
+	return soonest;
+}
+
+/* The same as a moment: page, and time since it began. In double for every arithmetic: the cells' slack pays for the
+ * rounding. */
+static double leaving(const struct touchstone_engine *engine, uint32_t i, double *page, uint8_t *next)
+{
+	if (!engine->cells.entry) return INFINITY;
+	double soonest = leaving_wait(engine, i, next) + to_double(engine->body[i].time), begins = engine->body[i].page;
+	if (engine->uneven) {
+		begins = floor(begins * engine->pages_per_time) * engine->page_length;
+		soonest += engine->body[i].page - begins;
+	}
+	double pages = soonest * engine->pages_per_time;
+	if (!(pages < 0x1p52) || soonest == INFINITY) return INFINITY;
+	double turned = pages > 0 ? (double)(int64_t)pages * engine->page_turn : 0;
+	*page = begins + turned;
+	return soonest - turned;
+}
+
+/* Does a straight flight end in the cell where it begins? Then it does not leave it, and when it would is no matter. */
+static bool stays(const struct touchstone_engine *engine, uint32_t i, double flight)
+{
+	if (engine->accelerated) return false;
+	bool inside = true;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		double side = engine->cell_side[axis], stray = engine->stray[axis];
+		double end = coordinate_in_box(engine, i, axis) + to_double(engine->body[i].velocity[axis]) * flight;
+		double beyond = end - (engine->itinerary[i].cell[axis] - 1) * side;
+		inside &= (beyond > -stray) & (beyond < side + stray);
+	}
+	return inside;
+}
+
+/* Has a straight flight come to where a particle may as well be in the next cell along it? Adds those axes to `step`,
+ * where they are not in it; false if there is none. */
+static bool may_step(const struct touchstone_engine *engine, uint32_t i, double flight, int step[3])
+{
+	bool any = false;
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		double side = engine->cell_side[axis], speed = to_double(engine->body[i].velocity[axis]);
+		double at = coordinate_in_box(engine, i, axis) + speed * flight;
+		int cell = engine->itinerary[i].cell[axis], last = engine->cells.count[axis];
+		bool up = speed > 0, ends = !engine->periodic[axis] && cell == (up ? last : 1);
+		double beyond = up ? at - cell * side : (cell - 1) * side - at;
+		if (step[axis] || speed == 0 || ends || beyond < -engine->stray[axis]) continue;
+		step[axis] = up ? 1 : -1;
+		any = true;
+	}
+	return any;
+}
+
+static void out_of_memory(struct touchstone_engine *engine);
+
+/* Enters every particle into its cell; false when one is too full. */
+static bool fill_cells(struct touchstone_engine *engine)
+{
+	for (uint32_t i = 0; i < engine->count; i++)
+		if (!cells_insert(&engine->cells, engine->itinerary[i].cell, i)) return false;
+	return true;
+}
+
+/* Makes cells of the wanted capacity, doubling it until all particles find room; false when memory does not suffice. */
+static bool make_cells(struct touchstone_engine *engine, const int count[3], uint32_t capacity)
+{
+	for (;; capacity *= 2) {
+		cells_destroy(&engine->cells);
+		free(engine->candidate[0]);
+		engine->candidate[0] = NULL;
+		if (!cells_create(&engine->cells, engine->dimensions, engine->periodic, count, capacity)) return false;
+		size_t most = cells_most(&engine->cells) + 32;
+		engine->candidate[0] = malloc(2 * most * sizeof *engine->candidate[0]);
+		if (!engine->candidate[0]) return false;
+		engine->candidate[1] = engine->candidate[0] + most;
+		if (fill_cells(engine)) return true;
+	}
+}
+
+/* Takes a particle out of its cell and into one next to it. Returns whether that is in another image of the box. */
+static bool move_by(struct touchstone_engine *engine, uint32_t i, const int step[3])
+{
+	struct itinerary *itinerary = &engine->itinerary[i];
+	bool wraps = false;
+	cells_remove(&engine->cells, itinerary->cell, i);
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		int cell = itinerary->cell[axis] + step[axis], last = engine->cells.count[axis];
+		if (cell < 1 || cell > last) {
+			cell -= step[axis] * last;
+			shift_image(engine, i, axis, -step[axis]);
+			wraps = true;
+		}
+		itinerary->cell[axis] = (uint16_t)cell;
+	}
+	if (!cells_insert(&engine->cells, itinerary->cell, i)) {
+		int count[3] = {engine->cells.count[0], engine->cells.count[1], engine->cells.count[2]};
+		if (!make_cells(engine, count, 2 * engine->cells.capacity)) out_of_memory(engine);
+	}
+	if (wraps) itinerary->changes++; /* images are counted from here on: whoever knew the old one asks again */
+	return wraps;
+}

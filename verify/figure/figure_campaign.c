@@ -1,0 +1,14 @@
+#include "figure/figure_campaign.h"
+
+json_t *figure_campaign_run(const struct campaign *campaign, const struct figure_setup *setup,
+							char error[CAMPAIGN_ERROR])
+{
+	return campaign_run(campaign,
+						&(struct campaign_setup){.folder = setup->folder,
+												 .this_revision = !setup->any_revision,
+												 .threads = setup->threads,
+												 .stop = setup->stop,
+												 .progress = setup->progress,
+												 .context = setup->context},
+						error);
+}
