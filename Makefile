@@ -16,6 +16,8 @@
 
 VERSION  := 0.1
 BUILD    := build
+# The build whose program is taken, but for the library.
+AROUND   := $(BUILD)
 CORES    := $(shell nproc)
 BASELINE  = $(BUILD)/bench-baseline.json
 CC       := gcc
@@ -34,7 +36,12 @@ BENCH    := verify/bench/main.c
 LIBRARY  := $(call objects,$(call sources,lib))
 PARTS    := $(call objects,$(filter-out $(MAIN) $(BENCH),$(call sources,verify reports)))
 TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/test/*_test.c'))
-CHECKED   = $(foreach test,$(TESTS),$(if $(filter $(OMIT),$(notdir $(test))),,$(test)))
+# Tests that take more than two seconds under sanitizers, where `make test` leaves them out. Elsewhere they come first,
+# so that no core waits for another in the end.
+SLOW     := $(patsubst %,%_test,audit campaign_command campaign_kill chart engine family fuzz grade_command num_short oracle \
+	oracle_rule physics plugin policy resume step_engine step_gas step_oracle time_place)
+named     = $(foreach test,$(TESTS),$(if $(filter $(1),$(notdir $(test))),$(test)))
+CHECKED   = $(filter-out $(call named,$(OMIT)),$(call named,$(SLOW)) $(filter-out $(call named,$(SLOW)),$(TESTS)))
 
 # Campaigns on several machines: a module that is loaded by programs which mpirun launched, and by no others.
 MPICC    := $(shell command -v mpicc)
@@ -62,7 +69,7 @@ test:
 	@$(MAKE) --no-print-directory -j$(CORES) $(BUILD)/touchstone $(TESTS)
 	@$(MAKE) --no-print-directory check
 	@$(MAKE) --no-print-directory -j2 digests live-test
-	@$(MAKE) --no-print-directory test-sanitize OMIT='$(SLOW)'
+	@$(MAKE) --no-print-directory test-sanitize OMIT='$(SLOW)' PLAIN='$(RARE)'
 
 # Every test program, from this folder, as many at a time as there are cores; each tells its tale when it has ended.
 check: $(BUILD)/touchstone $(CHECKED)
@@ -109,21 +116,22 @@ FUZZED   := $(words $(wildcard verify/fuzz/target/*.c))
 fuzz:
 	@BUILD='$(BUILD)' MAKE='$(MAKE)' verify/fuzz/coverage $(FUZZER) $(SECONDS_EACH)
 
-# The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest. Those that
-# still take more than two seconds are left out of `make test`.
-SLOW := $(patsubst %,%_test,audit campaign_command campaign_kill chart engine family fuzz grade_command num_short oracle \
-	oracle_rule physics plugin policy resume step_engine step_gas step_oracle time_place)
+# The same tests under AddressSanitizer and UndefinedBehaviorSanitizer; TOUCHSTONE_BRIEF shortens the longest. To
+# optimise arithmetics that few of them use takes longer than it saves `make test`.
+RARE     := mpfr2 mpfr4 mpfr16 binary128 extended twin
 SANITIZE = BUILD=$(BUILD)/sanitize OPTIMISE=-O1 \
 	EXTRA='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer'
 test-sanitize:
 	@$(MAKE) --no-print-directory -j$(CORES) $(SANITIZE) prepared
 	@TOUCHSTONE_BRIEF=1 $(MAKE) --no-print-directory $(SANITIZE) check
 
-# One digest for both compilers and all optimisations.
+# One digest for both compilers and all optimisations. Of each compiler there is one whole program; in its second the
+# library is another and the rest the same. mpfr:53 runs in the smallest of the MPFR units.
+DIGEST_BUILD = $(MAKE) --no-print-directory -j$(CORES) EXTRA=-g0
 digests: $(BUILD)/touchstone
-	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/clang CC=clang $(BUILD)/clang/touchstone
-	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/plain OPTIMISE=-O0 $(BUILD)/plain/touchstone
-	@$(MAKE) --no-print-directory -j$(CORES) BUILD=$(BUILD)/clang-plain CC=clang OPTIMISE=-O0 $(BUILD)/clang-plain/touchstone
+	@$(DIGEST_BUILD) BUILD=$(BUILD)/plain OPTIMISE=-O0 AROUND=$(BUILD) $(BUILD)/plain/touchstone
+	@$(DIGEST_BUILD) BUILD=$(BUILD)/clang-plain CC=clang OPTIMISE=-O0 $(BUILD)/clang-plain/touchstone
+	@$(DIGEST_BUILD) BUILD=$(BUILD)/clang CC=clang AROUND=$(BUILD)/clang-plain PLAIN='mpfr4 mpfr16' $(BUILD)/clang/touchstone
 	@verify/test/digests $(BUILD)/touchstone $(BUILD)/clang/touchstone $(BUILD)/plain/touchstone \
 		$(BUILD)/clang-plain/touchstone
 
@@ -133,9 +141,9 @@ prepared: $(BUILD)/touchstone $(CHECKED)
 # V=1 shows the whole commands.
 say = @$(if $(V),,echo '  $(1)';)$(if $(V),set -x;)
 
-$(BUILD)/touchstone: $(call objects,$(MAIN))
+$(BUILD)/touchstone: $(patsubst $(BUILD)/%,$(AROUND)/%,$(call objects,$(MAIN)))
 $(BUILD)/bench: $(call objects,$(BENCH))
-$(BUILD)/touchstone $(BUILD)/bench: $(BUILD)/parts.a $(BUILD)/libtouchstone.a
+$(BUILD)/touchstone $(BUILD)/bench: $(AROUND)/parts.a $(BUILD)/libtouchstone.a
 	$(call say,link $@) $(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS)
 
 $(BUILD)/libtouchstone.a: $(LIBRARY)
@@ -165,6 +173,9 @@ $(BUILD)/object/reports/figure.o: $(wildcard reports/plots/*)
 # One set of objects for the program, the archive and the shared library, which shows what touchstone.h declares.
 # Measured by size and by the counts of each instruction: the code of binary64 and of the sieve is the same without.
 $(LIBRARY): CFLAGS += -fPIC -fvisibility=hidden -fno-semantic-interposition
+
+# Units that run too little to be worth optimising.
+$(PLAIN:%=$(BUILD)/object/lib/unit/%.o): CFLAGS += -O0
 
 $(call objects,$(MAIN)): CPPFLAGS += -DTOUCHSTONE_VERSION='"$(VERSION)"'
 
