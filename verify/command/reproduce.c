@@ -161,9 +161,9 @@ int command_reproduce(int argc, char **argv)
 			   "Figures: all, or those that `touchstone list figures` has.\n"
 			   "`touchstone report` draws pages from what is stored. Ctrl-C keeps what is done and marks it "
 			   "incomplete; the same call then goes on from there.\n\n"
-			   "On two cores --full takes, by what the pieces take of one: horizon and time-and-place less than ten "
-			   "minutes each, fig5 and atlas an hour each, ladder an hour and a half, of which half goes to "
-			   "10^9 collisions in binary64 of three inelastic gases each.\n\n"
+			   "Reckoned from the speed of parts of them, not yet run through, --full takes on two cores: horizon and "
+			   "time-and-place some ten minutes each, fig5 and atlas some hour each, ladder an hour and a half, of "
+			   "which half goes to 10^9 collisions in binary64 of three inelastic gases each.\n\n"
 			   "Example: touchstone reproduce fig7 --quick && touchstone report",
 	};
 	argp_parse(&argp, argc, argv, 0, NULL, &arguments);
