@@ -1,5 +1,5 @@
-/* What the engine does is what the physics says: equations of state and collision rates, what is conserved, how
- * dissipative gases cool, and where a bouncing ball comes to rest.
+/* Gases do what the physics says: equations of state and collision rates, what is conserved, and how dissipative ones
+ * cool.
  *
  * Gases have sigma = m = kT = 1 unless said otherwise. Every tolerance is held against the statistical error of the
  * measurement, which is estimated from the run itself and must be well below it. */
@@ -13,10 +13,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "measure/collapse.h"
 #include "measure/conservation.h"
 #include "measure/interval.h"
-#include "scene/random.h"
 #include "scene/scene.h"
 
 enum { SEED = 20140902 };
@@ -358,127 +356,6 @@ static void gases_cool_as_they_should(void **state)
 	}
 }
 
-/* ------------------------------------------------------------------ what comes to rest */
-
-static const double gravity = -1, restitution = 0.5; /* the paper's ball, which rests at t = 3 */
-
-enum { ENGINE_ORDER = 3 }; /* the engine forms the contact position first, and a flight as r + (v t + g/2 t^2) */
-
-/* Rest time of a ball over a plate by the engine itself, or NaN if it does not come to rest. */
-static double engine_rests(double plate, enum touchstone_form form)
-{
-	struct touchstone_particle ball = {.position = {plate + 1}};
-	struct touchstone_wall wall = {{plate}, {1}, {TOUCHSTONE_CONSTANT, restitution}};
-	struct scene_recipe recipe = gas(1, 1, 0);
-	recipe.box[0] = 8;
-	recipe.boundary[0] = SCENE_OPEN;
-	recipe.wall_count = 1;
-	recipe.walls = &wall;
-	recipe.acceleration[0] = gravity;
-	recipe.positions = SCENE_GIVEN;
-	recipe.velocities = SCENE_AS_GIVEN;
-	recipe.temperature = 0;
-	recipe.particles = &ball;
-	recipe.form = form;
-	struct run run = begin(&recipe, SEED, 0);
-	execute(&run, 100000, NULL);
-	struct touchstone_status status;
-	touchstone_status(run.engine, &status);
-	end(&run);
-	return status.verdict == TOUCHSTONE_COLLAPSED ? status.time : NAN;
-}
-
-/* The engine calls a ball at rest after 260 events without progress of time, each of which may still be two units in
- * the last place of t long; the drop after 16 that do not move its time at all. */
-static void engine_and_drop_rest_together(void **state)
-{
-	(void)state;
-	const double lag = 260 * 2 * 0x1p-51;
-	int plates = brief ? 300 : 10000, lost = 0;
-	double apart = 0, off = 0;
-#pragma omp parallel for schedule(static) reduction(max : apart, off) reduction(+ : lost)
-	for (int i = 0; i < plates; i++) {
-		struct random_state random = random_seed(SEED + (uint64_t)i);
-		struct touchstone_drop drop = {{random_uniform(&random)}, gravity, restitution, ENGINE_ORDER, 10000};
-		struct touchstone_landing landing;
-		char error[160];
-		lost += !touchstone_drop("binary64", "stable", &drop, 1, &landing, NULL, NULL, error) ||
-				landing.verdict != TOUCHSTONE_COLLAPSED;
-		double exact = landing.time[0] - collapse_error(&drop, &landing);
-		for (int form = TOUCHSTONE_RELATIVE; form <= TOUCHSTONE_ABSOLUTE; form++) {
-			double time = engine_rests(drop.plate[0], form);
-			lost += isnan(time);
-			apart = fmax(apart, fabs(time - landing.time[0]));
-			off = fmax(off, fabs(time - exact));
-		}
-	}
-	print_message("%d plates from seed %d: rest times differ by at most %.2g, and from the exact ones by %.2g\n",
-				  plates, SEED, apart, off);
-	assert_int_equal(lost, 0);
-	assert_true(apart < lag);
-	assert_true(off < lag);
-}
-
-static struct collapse drop_balls(const char *arithmetic, int bits, unsigned order, uint64_t plates)
-{
-	struct collapse collapse;
-	char error[160];
-	struct collapse_setup setup = {.arithmetic = arithmetic,
-								   .method = "stable",
-								   .order = order,
-								   .gravity = gravity,
-								   .restitution = restitution,
-								   .plates = plates,
-								   .seed = SEED,
-								   .bits = bits,
-								   .most = 4000};
-	if (!collapse_measure(&setup, &collapse, error)) {
-		fprintf(stderr, "%s\n", error);
-		exit(EXIT_FAILURE);
-	}
-	return collapse;
-}
-
-/* Below 1e-7 as the engine evaluates it, and of the size of the square root of the roundoff in any order. */
-static void every_ball_rests_on_time(void **state)
-{
-	(void)state;
-	struct collapse collapse[TOUCHSTONE_DROP_ORDERS];
-	uint64_t plates = brief ? 1000 : 20000;
-#pragma omp parallel for schedule(dynamic, 1)
-	for (unsigned order = 0; order < TOUCHSTONE_DROP_ORDERS; order++)
-		collapse[order] = drop_balls("binary64", 53, order, plates);
-	for (unsigned order = 0; order < TOUCHSTONE_DROP_ORDERS; order++) {
-		print_message("%s: rest time off by at most %.2g, on the plate at %a\n", touchstone_drop_order(order),
-					  collapse[order].largest_error, collapse[order].worst_plate);
-		assert_int_equal(collapse[order].plates, plates);
-		assert_int_equal(collapse[order].rested, plates);
-		assert_true(collapse[order].largest_error < (order == ENGINE_ORDER ? 1e-7 : 32 * sqrt(0x1p-53)));
-	}
-}
-
-/* Where the gap is (r - plate) - s/2, as algorithm 2 of the 2014 paper has it, the last bounces are as small as the
- * square root of the roundoff, and the error of the rest time with them. */
-static void rest_time_errs_by_half_the_bits(void **state)
-{
-	(void)state;
-	static const struct {
-		const char *arithmetic;
-		int bits;
-	} rung[] = {{"short:8", 8},   {"short:16", 16},   {"binary32", 24},  {"mpfr:36", 36},   {"binary64", 53},
-				{"extended", 64}, {"binary128", 113}, {"mpfr:200", 200}, {"mpfr:350", 350}, {"mpfr:512", 512}};
-	enum { RUNGS = sizeof rung / sizeof *rung };
-	double bits[RUNGS], error[RUNGS];
-#pragma omp parallel for schedule(dynamic, 1)
-	for (int i = RUNGS - 1; i >= 0; i--) {
-		bits[i] = rung[i].bits;
-		error[i] = log2(drop_balls(rung[i].arithmetic, rung[i].bits, 0, brief ? 20 : 200).largest_error);
-	}
-	struct line_fit fit = fit_line(bits, error, RUNGS);
-	print_message("rest time errs by 2^(%.4f P %+.2f), P = 8 .. 512\n", fit.slope, fit.intercept);
-	assert_true(fabs(fit.slope + 0.5) < 0.02);
-}
-
 int main(void)
 {
 	brief = getenv("TOUCHSTONE_BRIEF");
@@ -487,9 +364,6 @@ int main(void)
 		cmocka_unit_test(energy_and_momentum_stay),
 		cmocka_unit_test(energy_is_shared_equally),
 		cmocka_unit_test(gases_cool_as_they_should),
-		cmocka_unit_test(engine_and_drop_rest_together),
-		cmocka_unit_test(every_ball_rests_on_time),
-		cmocka_unit_test(rest_time_errs_by_half_the_bits),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
