@@ -212,4 +212,15 @@ static inline int drop_oracles(void **state)
 	return 0;
 }
 
+/* Of the times of two questions, by both oracles and either way round. */
+static inline void check_order(struct both *both, struct oracle_query first, struct oracle_query second, int expected)
+{
+	struct oracle *oracles[] = {both->quick, both->exact};
+	for (int i = 0; i < 2; i++) {
+		struct oracle_time one = oracle_solve(oracles[i], &first), other = oracle_solve(oracles[i], &second);
+		check(oracle_compare(oracles[i], &one, &other) == expected, &first, "order");
+		check(oracle_compare(oracles[i], &other, &one) == -expected, &second, "order reversed");
+	}
+}
+
 #endif

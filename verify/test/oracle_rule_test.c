@@ -154,8 +154,8 @@ static void check_error(struct both *both, struct exact_rule *rule, const struct
 }
 
 /* Of two brackets that do not meet the order is plain. */
-static void check_order(struct both *both, struct exact_rule *rule, struct exact_rule *before,
-						const struct oracle_time *time, const struct oracle_time *time_before)
+static void check_order_of_brackets(struct both *both, struct exact_rule *rule, struct exact_rule *before,
+									const struct oracle_time *time, const struct oracle_time *time_before)
 {
 	int expected = mpfr_cmp(rule->lower, before->upper) >= 0 ? 1 : mpfr_cmp(rule->upper, before->lower) <= 0 ? -1 : 0;
 	if (expected == 0) return;
@@ -188,7 +188,7 @@ static void test_times_obey_the_rule(void **state)
 		families[i % FAMILIES](&query);
 		struct oracle_time time = check_query(*state, rule, &query);
 		if (time.event != ORACLE_LATER) continue;
-		if (later++) check_order(*state, rule, &before, &time, &time_before);
+		if (later++) check_order_of_brackets(*state, rule, &before, &time, &time_before);
 		time_before = time;
 		mpfr_swap(before.lower, rule->lower);
 		mpfr_swap(before.upper, rule->upper);
