@@ -148,5 +148,5 @@ int main(void)
 		cmocka_unit_test(pieces_have_keys_of_their_own),
 		cmocka_unit_test(numbers_come_back),
 	};
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

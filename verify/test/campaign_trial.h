@@ -14,10 +14,8 @@
 #include <cmocka.h>
 
 #include "campaign/campaign.h"
+#include "own_folder.h"
 #include "scene/random.h"
-#include "test/folder.h"
-
-static char *folder;
 
 enum { PIECES = 60 };
 
@@ -105,20 +103,6 @@ static inline void assert_goes_on(int at_most)
 	if (trial.made > at_most) fail_msg("%d pieces were made again, where %d were missing", trial.made, at_most);
 	json_decref(expected);
 	json_decref(results);
-}
-
-static inline int set_up(void **state)
-{
-	(void)state;
-	folder = folder_new();
-	return 0;
-}
-
-static inline int tear_down(void **state)
-{
-	(void)state;
-	folder_remove(folder);
-	return 0;
 }
 
 #endif

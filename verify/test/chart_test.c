@@ -2,9 +2,8 @@
 #include <math.h>
 #include <signal.h>
 
+#include "own_folder.h"
 #include "program.h"
-
-static char *folder; /* for this program's files */
 
 static const char HEADING[] = "kind,name,arithmetic,ns,cost_ratio,error_bits,horizon\n";
 #define FEW \
@@ -180,20 +179,6 @@ static void bad_usage_is_one_line(void **state)
 		program_refused(program_run("chart %s", wrong[w].arguments), wrong[w].words);
 }
 
-static int begin(void **state)
-{
-	(void)state;
-	folder = folder_new();
-	return 0;
-}
-
-static int end(void **state)
-{
-	(void)state;
-	folder_remove(folder);
-	return 0;
-}
-
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -204,5 +189,5 @@ int main(void)
 		cmocka_unit_test(an_interrupt_keeps_what_is_done),
 		cmocka_unit_test(bad_usage_is_one_line),
 	};
-	return cmocka_run_group_tests(tests, begin, end);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -2,11 +2,10 @@
 #include <sys/stat.h>
 
 #include "family/family.h"
+#include "own_folder.h"
 #include "program.h"
 #include "result.h"
 #include "touchstone.h"
-
-static char *folder; /* for this program's files */
 
 #define GAS "run hard-spheres --set particles=64 --set equilibrate=2"
 
@@ -178,20 +177,6 @@ static void unwritable_output_leaves_nothing(void **state)
 	free(pipe);
 }
 
-static int set_up(void **state)
-{
-	(void)state;
-	folder = folder_new();
-	return 0;
-}
-
-static int tear_down(void **state)
-{
-	(void)state;
-	folder_remove(folder);
-	return 0;
-}
-
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -199,5 +184,5 @@ int main(void)
 		cmocka_unit_test(reports_are_made_from_results), cmocka_unit_test(bad_usage_is_one_line),
 		cmocka_unit_test(bad_scenes_have_a_line),        cmocka_unit_test(unwritable_output_leaves_nothing),
 	};
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,7 +1,6 @@
 /* Coverage-guided fuzzing says what it lacks, and ends with the status that says so. */
+#include "own_folder.h"
 #include "program.h"
-
-static char *folder;
 
 static const char few[] = "sh sed dirname basename nproc make";
 
@@ -50,25 +49,11 @@ static void wrong_words_are_refused(void **state)
 	}
 }
 
-static int set_up(void **state)
-{
-	(void)state;
-	folder = folder_new();
-	return 0;
-}
-
-static int tear_down(void **state)
-{
-	(void)state;
-	folder_remove(folder);
-	return 0;
-}
-
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(a_missing_fuzzer_is_skipped),
 		cmocka_unit_test(wrong_words_are_refused),
 	};
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,10 +1,9 @@
 /* Frames for viewers: one file, in which those at the beginning and on the way are those of shorter runs. */
+#include "own_folder.h"
 #include "program.h"
 #include "store/extended_xyz.h"
 
 #define WELLS "run square-well --set particles=200 --set density=0.05 --set equilibrate=1"
-
-static char *folder;
 
 static char *contents(const char *name)
 {
@@ -89,20 +88,6 @@ static void both_at_once(void **state)
 	said_free(&both);
 }
 
-static int begin(void **state)
-{
-	(void)state;
-	folder = folder_new();
-	return 0;
-}
-
-static int end(void **state)
-{
-	(void)state;
-	folder_remove(folder);
-	return 0;
-}
-
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -111,5 +96,5 @@ int main(void)
 		cmocka_unit_test(what_every_needs),
 		cmocka_unit_test(both_at_once),
 	};
-	return cmocka_run_group_tests(tests, begin, end);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -2,12 +2,11 @@
 #include <math.h>
 #include <signal.h>
 
+#include "own_folder.h"
 #include "program.h"
 #include "touchstone.h"
 
 #define PLUGIN(name) TOUCHSTONE_PLUGINS "/" name ".so"
-
-static char *folder; /* for this program's files */
 
 enum { COLUMNS = 14 };
 static const char HEADING[] = "method,arithmetic,shape,family,cases,missed,phantom,negative,nan,median_ulp,p999_ulp,"
@@ -353,20 +352,6 @@ static void bad_usage_is_one_line(void **state)
 	said_free(&said);
 }
 
-static int begin(void **state)
-{
-	(void)state;
-	folder = folder_new();
-	return 0;
-}
-
-static int end(void **state)
-{
-	(void)state;
-	folder_remove(folder);
-	return 0;
-}
-
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -384,5 +369,5 @@ int main(void)
 		cmocka_unit_test(grades_become_a_page),
 		cmocka_unit_test(bad_usage_is_one_line),
 	};
-	return cmocka_run_group_tests(tests, begin, end);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -201,5 +201,5 @@ int main(void)
 		cmocka_unit_test(revisions_are_told_apart),
 		cmocka_unit_test(a_full_disk),
 	};
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

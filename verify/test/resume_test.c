@@ -4,12 +4,12 @@
 #include <signal.h>
 #include <sys/stat.h>
 
+#include "own_folder.h"
 #include "program.h"
 #include "soak/kills.h"
 
 enum { SEED = 20161130 };
 
-static char *folder;
 static bool brief; /* under sanitizers, where everything takes ten times longer */
 
 static json_t *run(const char *arguments)
@@ -177,20 +177,6 @@ static void what_does_not_fit_is_refused(void **state)
 	refused("cut short", "--events 400");
 }
 
-static int begin(void **state)
-{
-	(void)state;
-	folder = folder_new();
-	return 0;
-}
-
-static int end(void **state)
-{
-	(void)state;
-	folder_remove(folder);
-	return 0;
-}
-
 int main(void)
 {
 	brief = getenv("TOUCHSTONE_BRIEF");
@@ -201,5 +187,5 @@ int main(void)
 		cmocka_unit_test(a_killed_run_goes_on),
 		cmocka_unit_test(what_does_not_fit_is_refused),
 	};
-	return cmocka_run_group_tests(tests, begin, end);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

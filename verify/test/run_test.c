@@ -5,12 +5,12 @@
 
 #include "command/interrupt.h"
 #include "command/progress.h"
+#include "own_folder.h"
 #include "program.h"
 #include "scene/random.h"
 #include "store/scene_file.h"
 
 static const uint64_t seed = 20140831;
-static char *folder; /* for this program's files */
 
 #define GAS "run hard-spheres --set particles=64 --set equilibrate=2"
 
@@ -347,20 +347,6 @@ static void durations_are_rounded(void **state)
 		assert_string_equal(progress_duration(text, durations[d].seconds), durations[d].text);
 }
 
-static int set_up(void **state)
-{
-	(void)state;
-	folder = folder_new();
-	return 0;
-}
-
-static int tear_down(void **state)
-{
-	(void)state;
-	folder_remove(folder);
-	return 0;
-}
-
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -371,5 +357,5 @@ int main(void)
 		cmocka_unit_test(particles_can_be_taken_up_again), cmocka_unit_test(signals_keep_what_is_done),
 		cmocka_unit_test(a_second_signal_ends_at_once),    cmocka_unit_test(durations_are_rounded),
 	};
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
