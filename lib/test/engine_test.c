@@ -13,30 +13,14 @@
 
 #include "scene/random.h"
 #include "scene/scene.h"
+#include "test/gas.h"
 #include "touchstone.h"
 
 enum { SEED = 20140902 };
 
 static bool brief; /* under sanitizers, where everything takes ten times longer */
 
-static const struct scene_species unit_ball[] = {{1, {1, 1}}};
 static const struct scene_species two_sizes[] = {{0.5, {1, 1}}, {0.5, {0.6, 0.3}}};
-
-static struct scene_recipe gas(int dimensions, size_t count, double density)
-{
-	return (struct scene_recipe){
-		.dimensions = dimensions,
-		.particle_count = count,
-		.density = density,
-		.boundary_restitution = {TOUCHSTONE_CONSTANT, 1},
-		.species_count = 1,
-		.species = unit_ball,
-		.restitution = {TOUCHSTONE_CONSTANT, 1},
-		.positions = SCENE_LATTICE,
-		.velocities = SCENE_MAXWELL,
-		.temperature = 1,
-	};
-}
 
 /* Runs a recipe; the caller looks at the status. */
 static struct touchstone_status run(const struct scene_recipe *recipe, const char *arithmetic, const char *method,

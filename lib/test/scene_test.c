@@ -13,24 +13,9 @@
 #include "scene/insertion.h"
 #include "scene/random.h"
 #include "scene/scene.h"
+#include "test/gas.h"
 
 static const uint64_t seed = 20160401;
-
-static const struct scene_species spheres = {1, {1, 1}};
-static const struct touchstone_restitution elastic = {TOUCHSTONE_CONSTANT, 1};
-
-/* A gas of equal spheres, periodic, on a lattice, with Maxwell's velocities. */
-static struct scene_recipe gas(int dimensions, size_t count, double density)
-{
-	return (struct scene_recipe){.dimensions = dimensions,
-								 .particle_count = count,
-								 .density = density,
-								 .species_count = 1,
-								 .species = &spheres,
-								 .restitution = elastic,
-								 .boundary_restitution = elastic,
-								 .temperature = 1};
-}
 
 static double temperature_of(const struct touchstone_scene *scene)
 {

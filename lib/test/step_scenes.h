@@ -15,27 +15,11 @@
 
 #include "scene/random.h"
 #include "scene/scene.h"
+#include "test/gas.h"
 
 enum { SEED = 20160301 };
 
-static const struct scene_species one_size[] = {{1, {1, 1}}};
 static const struct scene_species two_sizes[] = {{0.5, {1, 1}}, {0.5, {0.6, 0.3}}};
-
-static inline struct scene_recipe gas(int dimensions, size_t count, double density)
-{
-	return (struct scene_recipe){
-		.dimensions = dimensions,
-		.particle_count = count,
-		.density = density,
-		.boundary_restitution = {TOUCHSTONE_CONSTANT, 1},
-		.species_count = 1,
-		.species = one_size,
-		.restitution = {TOUCHSTONE_CONSTANT, 1},
-		.positions = SCENE_LATTICE,
-		.velocities = SCENE_MAXWELL,
-		.temperature = 1,
-	};
-}
 
 struct run {
 	struct touchstone_scene scene;

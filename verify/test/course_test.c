@@ -12,6 +12,7 @@
 #include "measure/conservation.h"
 #include "measure/course.h"
 #include "scene/scene.h"
+#include "test/gas.h"
 
 enum { SEED = 20140902 };
 
@@ -19,16 +20,8 @@ static bool brief; /* under sanitizers, where everything takes ten times longer 
 
 static struct touchstone_engine *make_gas(struct touchstone_scene *scene, double restitution)
 {
-	static const struct scene_species ball = {1, {1, 1}};
-	struct scene_recipe recipe = {.dimensions = 3,
-								  .particle_count = 256,
-								  .density = 0.4,
-								  .boundary_restitution = {TOUCHSTONE_CONSTANT, 1},
-								  .species_count = 1,
-								  .species = &ball,
-								  .restitution = {TOUCHSTONE_CONSTANT, restitution},
-								  .velocities = SCENE_MAXWELL,
-								  .temperature = 1};
+	struct scene_recipe recipe = gas(3, 256, 0.4);
+	recipe.restitution.coefficient = restitution;
 	struct scene_error complaint;
 	char error[160] = "";
 	if (!scene_build(&recipe, SEED, scene, &complaint)) fail_msg("%s %s", complaint.key, complaint.text);

@@ -16,6 +16,7 @@
 #include "measure/conservation.h"
 #include "measure/interval.h"
 #include "scene/scene.h"
+#include "test/gas.h"
 
 enum { SEED = 20140902 };
 
@@ -23,25 +24,9 @@ static const double pi = 3.14159265358979323846;
 
 static bool brief; /* under sanitizers, where everything takes ten times longer */
 
-static const struct scene_species unit_ball[] = {{1, {1, 1}}};
 static const struct scene_species two_sizes[] = {{0.5, {1, 1}}, {0.5, {0.5, 0.125}}};
 /* Equal masses on a line only exchange their velocities; these mix them. */
 static const struct scene_species two_masses[] = {{0.5, {1, 1}}, {0.5, {1, 1.618}}};
-
-static struct scene_recipe gas(int dimensions, size_t count, double density)
-{
-	return (struct scene_recipe){
-		.dimensions = dimensions,
-		.particle_count = count,
-		.density = density,
-		.boundary_restitution = {TOUCHSTONE_CONSTANT, 1},
-		.species_count = 1,
-		.species = unit_ball,
-		.restitution = {TOUCHSTONE_CONSTANT, 1},
-		.velocities = SCENE_MAXWELL,
-		.temperature = 1,
-	};
-}
 
 struct run {
 	struct touchstone_scene scene;
