@@ -213,7 +213,7 @@ static void engine_explain(const struct touchstone_engine *engine, void (*line)(
 		int length = snprintf(
 			text, sizeof text, "search: %d x %d x %d cells of side %.6g (%.3g slack), room for %u in each",
 			cells->count[0], cells->count[1], cells->count[2], engine->cell_side[0], engine->slack, cells->capacity);
-		if (engine->strays)
+		if (engine->roomy)
 			snprintf(text + length, sizeof text - (size_t)length, "; left when %.3g beyond them", engine->stray[0]);
 		line(context, text);
 	}

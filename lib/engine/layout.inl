@@ -17,7 +17,7 @@ static double coordinate_now(const struct touchstone_engine *engine, uint32_t i,
 	double wait = moment_double(engine->now) - (body->page + to_double(body->time));
 	double path = to_double(body->velocity[axis]) * wait;
 	if (engine->accelerated) path += to_double(engine->half_acceleration[axis]) * wait * wait;
-	return to_double(body->position[axis]) + engine->place[i].index[axis] * engine->place_width[axis] + path;
+	return coordinate_in_image(engine, i, axis) + path;
 }
 
 /* The cell a coordinate lies in; outside the grid the nearest one. */
@@ -57,7 +57,7 @@ static bool lay_out_cells(struct touchstone_engine *engine)
 	}
 	static const double far = 0.125; /* of a cell */
 	bool by_faces = !engine->accelerated && engine->neighbours.skin == 0;
-	engine->strays = by_faces && engine->stray[0] > far * engine->cell_side[0];
+	engine->roomy = by_faces && engine->stray[0] > far * engine->cell_side[0];
 	for (uint32_t i = 0; i < engine->count; i++) {
 		const struct body *body = &engine->body[i];
 		engine->itinerary[i].entered = moment_double(engine->now) - (body->page + to_double(body->time));

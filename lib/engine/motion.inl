@@ -51,6 +51,12 @@ static inline double moment_double(struct moment moment)
 	return moment.page + to_double(moment.time);
 }
 
+/* Where along an axis the last event left a particle, in the image of the box it is in: for looking about. */
+static inline double coordinate_in_image(const struct touchstone_engine *engine, uint32_t i, int axis)
+{
+	return to_double(engine->body[i].position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
+}
+
 /* The place so many steps from another. None in the box is nearly as far as the bounds: only a state that somebody has
  * altered, with more speed than its events allow for, comes to them. */
 static inline int32_t place_after(int32_t index, double steps)

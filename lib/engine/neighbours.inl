@@ -8,12 +8,6 @@
  * its state says, so that nothing can happen to it. This needs a method whose states and distances agree up to
  * rounding. */
 
-/* Where along an axis the last event of a particle was, in the image of the box it is in. */
-static inline double coordinate_left(const struct touchstone_engine *engine, uint32_t i, int axis)
-{
-	return to_double(engine->body[i].position[axis]) + engine->place[i].index[axis] * engine->place_width[axis];
-}
-
 /* What a list holds: pairs near contact, and those near a step. */
 static void set_bands(const struct touchstone_engine *engine, double skin, struct bands *bands)
 {
@@ -46,8 +40,8 @@ static double listed(const struct touchstone_engine *engine, const struct bands 
 
 /* Chooses the skin, or none where lists would not pay. Found by trial, with 13 500 particles, by user time per event:
  * lists of 16 to 28 cost the same; where 1.4 partners stand within the outermost step lists cost more than cells, where
- * 7 do they cost half. Sides of virtual walls are told
- * for particles in the box, which one that has left its anchor may not be. */
+ * 7 do they cost half. Sides of virtual walls are told for particles in the box, which one away from its anchor may not
+ * be. */
 static void choose_skin(struct touchstone_engine *engine)
 {
 	static const double members = 20, fewest = 4;
@@ -74,13 +68,13 @@ static void choose_skin(struct touchstone_engine *engine)
 }
 
 /* How long after its last event a particle has gone so far from its anchor that it needs another. */
-static double straying_wait(const struct touchstone_engine *engine, uint32_t i)
+static double anchor_wait(const struct touchstone_engine *engine, uint32_t i)
 {
 	const float *anchor = engine->neighbours.anchor[i].at;
 	double free = engine->neighbours.free, a = 0, b = 0, c = -free * free;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		double velocity = to_double(engine->body[i].velocity[axis]);
-		double offset = coordinate_left(engine, i, axis) - anchor[axis];
+		double offset = coordinate_in_image(engine, i, axis) - anchor[axis];
 		a += velocity * velocity, b += offset * velocity, c += offset * offset;
 	}
 	if (!(a > 0)) return INFINITY;
@@ -89,13 +83,13 @@ static double straying_wait(const struct touchstone_engine *engine, uint32_t i)
 }
 
 /* Whether a flight from its last event leaves a particle near its anchor. */
-static inline bool strays(const struct touchstone_engine *engine, uint32_t i, double flight)
+static inline bool leaves_anchor(const struct touchstone_engine *engine, uint32_t i, double flight)
 {
 	const float *anchor = engine->neighbours.anchor[i].at;
 	double square = 0;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		double path = to_double(engine->body[i].velocity[axis]) * flight;
-		double offset = coordinate_left(engine, i, axis) + path - anchor[axis];
+		double offset = coordinate_in_image(engine, i, axis) + path - anchor[axis];
 		square += offset * offset;
 	}
 	return !(square < engine->neighbours.free * engine->neighbours.free);

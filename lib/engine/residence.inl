@@ -6,8 +6,7 @@
 /* Where the last event left a particle along an axis, from the low end of the box. */
 static double coordinate_in_box(const struct touchstone_engine *engine, uint32_t i, int axis)
 {
-	double place = engine->place[i].index[axis] * engine->place_width[axis] + engine->box[axis] / 2;
-	return to_double(engine->body[i].position[axis]) + place;
+	return coordinate_in_image(engine, i, axis) + engine->box[axis] / 2;
 }
 
 /* How long after its last event a particle passes a face `gap` ahead of where that event left it, under constant
@@ -54,8 +53,8 @@ static double leaving_wait(const struct touchstone_engine *engine, uint32_t i, u
 	double soonest = INFINITY;
 	int face = 0;
 	if (engine->neighbours.skin > 0) {
-		*next = STRAYS;
-		return straying_wait(engine, i);
+		*next = LEAVES_ANCHOR;
+		return anchor_wait(engine, i);
 	}
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		bool upper;
@@ -88,7 +87,7 @@ static double leaving(const struct touchstone_engine *engine, uint32_t i, double
 static bool stays(const struct touchstone_engine *engine, uint32_t i, double flight)
 {
 	if (engine->accelerated) return false;
-	if (engine->neighbours.skin > 0) return !strays(engine, i, flight);
+	if (engine->neighbours.skin > 0) return !leaves_anchor(engine, i, flight);
 	bool inside = true;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		double side = engine->cell_side[axis], stray = engine->stray[axis];

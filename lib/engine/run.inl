@@ -5,19 +5,19 @@
 static void find_neighbours(struct touchstone_engine *engine, uint32_t i)
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
-	float old[3], *from = old, to[3] = {0};
-	double wait = straying_wait(engine, i), at[3] = {0};
+	float from[3], to[3] = {0};
+	double wait = anchor_wait(engine, i);
 	uint16_t cell[3] = {itinerary->cell[0], itinerary->cell[1], itinerary->cell[2]};
 	int wraps[3] = {0};
-	memcpy(old, engine->neighbours.anchor[i].at, sizeof old);
+	memcpy(from, engine->neighbours.anchor[i].at, sizeof from);
 	for (int axis = 0; axis < engine->dimensions; axis++) {
-		at[axis] = coordinate_left(engine, i, axis) + to_double(engine->body[i].velocity[axis]) * wait;
-		if (engine->periodic[axis] && fabs(at[axis]) > engine->box[axis] / 2) wraps[axis] = at[axis] > 0 ? -1 : 1;
-		at[axis] += wraps[axis] * engine->box[axis];
-		to[axis] = (float)at[axis];
-		cell[axis] = cell_of(engine, at[axis], axis);
+		double at = coordinate_in_image(engine, i, axis) + to_double(engine->body[i].velocity[axis]) * wait;
+		if (engine->periodic[axis] && fabs(at) > engine->box[axis] / 2) wraps[axis] = at > 0 ? -1 : 1;
+		at += wraps[axis] * engine->box[axis];
+		to[axis] = (float)at;
+		cell[axis] = cell_of(engine, at, axis);
 	}
-	bool wrapped = wraps[0] || wraps[1] || wraps[2], enough = unlist(engine, i, old, wrapped ? nowhere : to);
+	bool wrapped = wraps[0] || wraps[1] || wraps[2], enough = unlist(engine, i, from, wrapped ? nowhere : to);
 	for (int axis = 0; axis < engine->dimensions; axis++)
 		if (wraps[axis]) shift_image(engine, i, axis, wraps[axis]);
 	if (memcmp(cell, itinerary->cell, sizeof cell) != 0) {
@@ -27,8 +27,7 @@ static void find_neighbours(struct touchstone_engine *engine, uint32_t i)
 	}
 	cast_shadow(engine, i);
 	size_t fresh;
-	enough &= move_anchor(engine, i, wrapped ? nowhere : from, to, &fresh);
-	if (!enough) {
+	if (!enough || !move_anchor(engine, i, wrapped ? nowhere : from, to, &fresh)) {
 		out_of_memory(engine);
 		return;
 	}
@@ -46,15 +45,15 @@ static void cross(struct touchstone_engine *engine, uint32_t i)
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
 	uint8_t face;
-	if (itinerary->next == STRAYS) {
+	if (itinerary->next == LEAVES_ANCHOR) {
 		find_neighbours(engine, i);
 		return;
 	}
-	double flight = engine->accelerated || engine->strays ? leaving_wait(engine, i, &face) : 0;
+	double flight = engine->accelerated || engine->roomy ? leaving_wait(engine, i, &face) : 0;
 	if (engine->accelerated) itinerary->entered = flight; /* a parabola may pass a face twice */
 	int step[3] = {0};
 	step[(itinerary->next - 1) / 2] = (itinerary->next - 1) % 2 ? 1 : -1;
-	if (engine->strays) may_step(engine, i, flight, step);
+	if (engine->roomy) may_step(engine, i, flight, step);
 	bool wraps = move_by(engine, i, step);
 	if (engine->verdict != TOUCHSTONE_DONE) return;
 	cast_shadow(engine, i);
@@ -115,9 +114,10 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 	for (int p = 0; p < particles; p++) {
 		engine->itinerary[met[p]].entered = 0;
 		int step[3] = {0};
-		if (engine->strays && may_step(engine, met[p], 0, step)) move_by(engine, met[p], step);
+		if (engine->roomy && may_step(engine, met[p], 0, step)) move_by(engine, met[p], step);
 		cast_shadow(engine, met[p]);
 	}
+	if (engine->roomy && !engine->cells.entry) return; /* memory ran out */
 	if (engine->last_met) remember_event(engine, met, particles);
 	if (policy & (POLICY_BACKWARDS | POLICY_SEARCH) && far_back(engine)) {
 		engine->search = TOUCHSTONE_ALL; /* from here on */

@@ -18,8 +18,7 @@ static void cast_shadow(struct touchstone_engine *engine, uint32_t i)
 	double flight = shadows->now - since_base(engine, body->page, to_double(body->time)), position[3], velocity[3];
 	for (int axis = 0; axis < 3; axis++) {
 		velocity[axis] = to_double(body->velocity[axis]) * shadows->per_speed;
-		position[axis] = to_double(body->position[axis]) + place->index[axis] * engine->place_width[axis];
-		position[axis] = position[axis] * shadows->per_length + velocity[axis] * flight;
+		position[axis] = coordinate_in_image(engine, i, axis) * shadows->per_length + velocity[axis] * flight;
 	}
 	double radius = shadows->radius[place->species] * shadows->per_length;
 	shadows->machine->cast(&shadows->shadow[i], position[0], position[1], position[2], shadows->now, velocity[0],

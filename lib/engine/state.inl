@@ -24,8 +24,9 @@ static inline bool with_particle(uint8_t meets)
 	return meets != TOUCHSTONE_WALL && meets != TOUCHSTONE_CROSSING;
 }
 
-/* What is next for a particle, otherwise 1 + 2 axis + (side > 0): a cell is left that way. STRAYS: from its anchor. */
-enum { NEXT_IS_PHYSICAL = 0, STRAYS = 7 };
+/* What is next for a particle, otherwise 1 + 2 axis + (side > 0): a cell is left that way. LEAVES_ANCHOR: from its
+ * anchor. */
+enum { NEXT_IS_PHYSICAL = 0, LEAVES_ANCHOR = 7 };
 
 /* Where a particle is and what comes next for it, as far as it knows: one cache line in binary64. */
 struct itinerary {
@@ -190,7 +191,7 @@ struct touchstone_engine {
 	double slack;                /* how much wider than `reach` a cell must be for rounding not to matter */
 	double cell_side[3];
 	double stray[3]; /* how far beyond the faces of its cell a particle goes before it leaves it */
-	bool strays;     /* whether that is far, in straight flights */
+	bool roomy;      /* whether that is far, in straight flights */
 	struct cells cells;
 	uint32_t *candidate[2]; /* entries that a search has listed; two searches may be under way */
 	struct shadows shadows;

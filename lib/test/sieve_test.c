@@ -62,6 +62,19 @@ static void cast(const struct sieve_machine *machine, struct shadow *shadow, con
 				  p->velocity[2], p->radius);
 }
 
+/* A sieve in a periodic box at a time, for binary64. */
+static struct sieve sieve_at(double box, double now)
+{
+	return (struct sieve){.box = {(float)box, (float)box, (float)box},
+						  .boxes = 3 * (float)box,
+						  .now = (float)now,
+						  .span = (float)now,
+						  .age = (float)now,
+						  .roundoff = 0x1p-53f,
+						  .drift = 0x1p-40f,
+						  .latest = INFINITY};
+}
+
 /* One crowd of particles around number 0, and what each machine leaves of it; how many in all, and how many kept. */
 static void one_crowd(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_all)
 {
@@ -98,17 +111,10 @@ static void one_crowd(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_al
 		if (wait[k] < soonest) soonest = wait[k];
 	}
 	for (uint32_t k = count; k < count + 32; k++) entry[k] = (uint32_t)between(0, count + 1); /* not to be looked at */
-	struct sieve sieve = {.box = {(float)box, (float)box, (float)box},
-						  .boxes = 3 * (float)box,
-						  .now = (float)now,
-						  .span = (float)now,
-						  .age = (float)now,
-						  .roundoff = 0x1p-53f,
-						  .drift = 0x1p-40f,
-						  .latest = INFINITY,
-						  .heard = reach,
-						  .by_order = between(0, 1) < 0.8,
-						  .images = images};
+	struct sieve sieve = sieve_at(box, now);
+	sieve.heard = reach;
+	sieve.by_order = between(0, 1) < 0.8;
+	sieve.images = images;
 	double limit = between(0, 1) < 0.3 ? between(0, 2) / speed : INFINITY;
 	if (sieve.by_order) sieve.latest = (float)(limit * 1.001);
 	const struct sieve_machine *machine;
@@ -204,15 +210,8 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint
 		wait[k] = in < out ? in : out;
 		if (wait[k] < soonest) soonest = wait[k];
 	}
-	struct sieve sieve = {.box = {(float)box, (float)box, (float)box},
-						  .boxes = 3 * (float)box,
-						  .now = (float)now,
-						  .span = (float)now,
-						  .age = (float)now,
-						  .roundoff = 0x1p-53f,
-						  .drift = 0x1p-40f,
-						  .latest = INFINITY,
-						  .by_order = true};
+	struct sieve sieve = sieve_at(box, now);
+	sieve.by_order = true;
 	const struct sieve_machine *machine;
 	for (size_t m = 0; (machine = sieve_machine(m)); m++) {
 		for (uint32_t i = 0; i <= count; i++) cast(machine, &shadow[i], &particle[i]);
@@ -278,13 +277,7 @@ static void one_check(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_al
 		long double distance = distance_at(&particle[0], &particle[k + 1], (double[3]){0}, now);
 		out[k] = !((inner[k] <= 0 || distance > (long double)inner[k]) && distance < (long double)outer[k]);
 	}
-	struct sieve sieve = {.box = {(float)box, (float)box, (float)box},
-						  .boxes = 3 * (float)box,
-						  .now = (float)now,
-						  .span = (float)now,
-						  .age = (float)now,
-						  .roundoff = 0x1p-53f,
-						  .drift = 0x1p-40f};
+	struct sieve sieve = sieve_at(box, now);
 	const struct sieve_machine *machine;
 	for (size_t m = 0; (machine = sieve_machine(m)); m++) {
 		for (uint32_t i = 0; i <= count; i++) cast(machine, &shadow[i], &particle[i]);

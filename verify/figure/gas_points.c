@@ -1,11 +1,11 @@
 #include "figure/gas_points.h"
 
-#include "figure/figure_campaign.h"
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
+
+#include "figure/figure_campaign.h"
 
 static const uint64_t most_per_piece = 10000000; /* events: some ten seconds to a few minutes */
 
@@ -70,19 +70,6 @@ static double piece_cost(void *context, size_t piece)
 	return each * (double)piece_setup(points, piece).events;
 }
 
-struct reporter {
-	const struct campaign_watch *watch;
-	double done, all; /* events */
-};
-
-static void report(void *context, uint64_t more, const struct touchstone_status *now)
-{
-	(void)now;
-	struct reporter *reporter = context;
-	reporter->done += (double)more;
-	reporter->watch->progress(reporter->watch, fmin(1, reporter->done / reporter->all));
-}
-
 static json_t *whole(uint64_t value)
 {
 	return json_integer((json_int_t)value);
@@ -91,9 +78,9 @@ static json_t *whole(uint64_t value)
 static json_t *make_piece(void *context, size_t piece, const struct campaign_watch *watch, char error[CAMPAIGN_ERROR])
 {
 	struct kept_setup one = piece_setup(context, piece);
-	struct reporter reporter = {watch, 0,
-								(double)one.events + (one.equilibrate + one.settle) / 2 * (double)one.particles};
-	struct watch look = {watch->stop, report, &reporter};
+	struct figure_piece progress = {watch, 0,
+									(double)one.events + (one.equilibrate + one.settle) / 2 * (double)one.particles};
+	struct watch look = {watch->stop, figure_piece_report, &progress};
 	struct kept_gas gas;
 	struct timespec begin, end;
 	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);

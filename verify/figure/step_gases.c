@@ -1,11 +1,10 @@
 #include "figure/step_gases.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "campaign/campaign.h"
+#include "figure/figure_campaign.h"
 
 struct gases {
 	const char *name;
@@ -104,27 +103,14 @@ static struct step_gas_outcome outcome_of(const json_t *piece)
 
 /* ------------------------------------------------------------------ making them */
 
-struct reporter {
-	const struct campaign_watch *watch;
-	double done, all; /* events */
-};
-
-static void report(void *context, uint64_t more, const struct touchstone_status *now)
-{
-	(void)now;
-	struct reporter *reporter = context;
-	reporter->done += (double)more;
-	reporter->watch->progress(reporter->watch, fmin(1, reporter->done / reporter->all));
-}
-
 static const uint64_t long_run = 10000000; /* events: minutes */
 
 static json_t *make_piece(void *context, size_t piece, const struct campaign_watch *watch, char error[CAMPAIGN_ERROR])
 {
 	const struct gases *gases = context;
 	const struct step_gas *gas = &gases->gas[piece];
-	struct reporter reporter = {watch, 0, (double)step_gas_events(gas)};
-	struct watch look = {watch->stop, report, &reporter};
+	struct figure_piece progress = {watch, 0, (double)step_gas_events(gas)};
+	struct watch look = {watch->stop, figure_piece_report, &progress};
 	struct step_gas_outcome outcome;
 	char *kept = NULL;
 	bool keep = gases->setup->folder && !gas->watched && gas->events >= long_run;
@@ -140,13 +126,7 @@ bool step_gases_measure(const char *name, const struct figure_setup *setup, cons
 {
 	struct gases gases = {name, setup, gas};
 	const struct campaign campaign = {name, count, piece_key, piece_cost, make_piece, &gases};
-	const struct campaign_setup how = {.folder = setup->folder,
-									   .this_revision = true,
-									   .threads = setup->threads,
-									   .stop = setup->stop,
-									   .progress = setup->progress,
-									   .context = setup->context};
-	json_t *results = campaign_run(&campaign, &how, error);
+	json_t *results = figure_campaign_run(&campaign, setup, error);
 	if (!results) return false;
 	*finished = campaign_finished(results);
 	for (size_t g = 0; g < count; g++) {
