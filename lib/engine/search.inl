@@ -183,7 +183,7 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 		bool sieved = heard && sieve_listens(engine, particle, particles);
 		if (heard && !sieved) tell_tests(engine, particle, list, candidates, particles);
 		for (int p = 0; captures && p < particles; p++) consider_captured(engine, particle[p], &plan[p]);
-		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
+		sift(engine, particle, particles, candidates, plan);
 		if (sieved) tell_tests(engine, particle, list, candidates, particles);
 		engine->shadows.sieve.heard = 0;
 		for (int p = 0; captures && p < particles; p++)
@@ -207,7 +207,7 @@ static void predict_entered(struct touchstone_engine *engine, uint32_t i, const 
 	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, engine->itinerary[i].meets, false};
 	uint32_t *list = engine->candidate[0];
 	size_t candidates = cells_entered(&engine->cells, engine->itinerary[i].cell, step, i, list);
-	candidates = sift(engine, i, list, candidates, &plan);
+	sift(engine, &i, 1, &candidates, &plan);
 	if (engine->captured) candidates = without_captured(engine, i, list, candidates);
 	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);
