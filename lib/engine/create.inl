@@ -267,6 +267,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	engine->unit = &THIS_UNIT;
 	engine->method = chosen;
 	engine->bits = num_bits();
+	engine->two_units = from_double(ldexp(1, 2 - engine->bits));
 	engine->dimensions = scene->dimensions;
 	engine->restitution = scene->restitution;
 	engine->search = scene->search;
