@@ -56,7 +56,7 @@ INLINE struct own own_of(const struct sieve *sieve, const struct shadow *shadow)
 	float size = fabsf(x[0]) + fabsf(x[1]) + fabsf(x[2]);
 	return (struct own){.shadow = *shadow,
 						.speed = fabsf(v[0]) + fabsf(v[1]) + fabsf(v[2]),
-						.h_fixed = 8 * u * (sieve->boxes + size),
+						.h_fixed = 8 * u * (sieve->boxes + size) + sieve->grain,
 						.h_time = 12 * u * sieve->span + sieve->drift};
 }
 
@@ -102,7 +102,7 @@ INLINE lanes error_of_c(const struct sieve *sieve, const struct others *o, lanes
 INLINE lanes error_of_b(const struct sieve *sieve, const struct others *o)
 {
 	const float n = sieve->roundoff;
-	return o->s * (2 * o->h + (12 * u + 16 * n) * o->r1 + (16 * n * sieve->age) * o->s) + tiny;
+	return o->s * (2 * o->h + (12 * u + 16 * n) * o->r1 + (16 * n * sieve->age + sieve->late) * o->s) + tiny;
 }
 
 /* When pairs meet at a distance: not before `low`; and, where that is sure, not after `high`. */
@@ -126,7 +126,7 @@ INLINE struct meeting meeting_of(const struct others *o, lanes c, lanes q, lanes
 /* The latest meeting that is still of interest, when some surely come no later than `high`. */
 INLINE float latest_of(const struct sieve *sieve, float latest, lanes high, const struct steps *step)
 {
-	float soonest = step->least(high) * 1.0001f + sieve->drift;
+	float soonest = step->least(high) * 1.0001f + sieve->late;
 	return soonest < latest ? soonest : latest;
 }
 

@@ -72,6 +72,7 @@ static struct sieve sieve_at(double box, double now)
 						  .age = (float)now,
 						  .roundoff = 0x1p-53f,
 						  .drift = 0x1p-40f,
+						  .late = 0x1p-40f,
 						  .latest = INFINITY};
 }
 
