@@ -155,9 +155,16 @@ $(BUILD)/object/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,compile $<) $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart command/audit bench/main \
-	campaign/piece_store): CPPFLAGS += \
-	-DTOUCHSTONE_REVISION='"$(shell git describe --always --dirty 2>/dev/null)"'
+# What names the revision is compiled anew when there is another, and nothing else is.
+REVISION := $(shell git describe --always --dirty 2>/dev/null)
+NAMING   := $(patsubst %,$(BUILD)/object/verify/%.o,command/reproduce command/grade command/chart command/audit bench/main \
+	campaign/piece_store)
+$(NAMING): CPPFLAGS += -DTOUCHSTONE_REVISION='"$(REVISION)"'
+$(NAMING): $(BUILD)/revision
+.PHONY: always
+$(BUILD)/revision: always
+	@mkdir -p $(@D)
+	@echo '$(REVISION)' | cmp -s - $@ || echo '$(REVISION)' >$@
 
 # Where the cases are when there are none in the folder one works in.
 cases_folder := -DTOUCHSTONE_CASES='"$(CURDIR)/cases"'

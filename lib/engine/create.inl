@@ -247,7 +247,7 @@ static bool scene_makes_sense(const struct touchstone_scene *scene, char error[1
 /* From the start state: states are read from the positions, for once. */
 static bool begin(struct touchstone_engine *engine)
 {
-	engine->slack = slack_needed(engine, 0, typical_speed(engine));
+	engine->slack = slack_needed(engine, moment_double(engine->now), typical_speed(engine));
 	bool enough = (engine->count < 2 || lay_out_cells(engine)) && read_states(engine);
 	read_sides(engine);
 	return enough && look_ahead(engine);

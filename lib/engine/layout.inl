@@ -1,13 +1,17 @@
 /* Where to look: laying out cells and agenda. Any layout gives the same events; a poor one only takes longer. */
 
 /* How much wider than the largest distance at which anything happens a cell must be, so that no rounding of positions,
- * of the reach of a far pair's discriminant, or (absolute form) of a late clock hides a neighbour. */
+ * of the reach of a far pair's discriminant, or (absolute form) of a late clock hides a neighbour; nor a method that
+ * has its events early or late. */
 static double slack_needed(const struct touchstone_engine *engine, double clock, double speed)
 {
 	double extent = 0, roundoff = ldexp(1, -engine->bits);
 	for (int axis = 0; axis < engine->dimensions; axis++) extent = fmax(extent, engine->box[axis]);
 	double drift = engine->page_length < INFINITY ? engine->page_length : clock;
-	return 0x1p-14 * engine->reach + 16 * roundoff * (extent * (1 + extent / engine->largest) + 8 * drift * speed);
+	bool shifts = engine->method->policy & (POLICY_STRETCH | POLICY_LAST_EVENT);
+	double shift = shifts ? to_double(engine->correction_time) : 0;
+	return 0x1p-14 * engine->reach + 16 * roundoff * (extent * (1 + extent / engine->largest) + 8 * drift * speed) +
+		   8 * shift * speed;
 }
 
 /* Coordinate of a particle now, in the image of the box it is in. */

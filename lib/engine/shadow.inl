@@ -34,7 +34,9 @@ static void keep_time(struct touchstone_engine *engine)
 	shadows->now = since_base(engine, engine->now.page, to_double(engine->now.time));
 	sieve->now = sieve->span = (float)shadows->now;
 	sieve->age = (float)(shadows->age + shadows->now);
-	sieve->drift = (float)((sieve->roundoff + 0x1p-53) * 16 * (sieve->age + clock * shadows->per_time));
+	clock *= shadows->per_time;
+	sieve->drift = (float)(16 * (sieve->roundoff * sieve->age + 0x1p-53 * (sieve->age + clock)));
+	sieve->late = (float)(4 * (sieve->roundoff + 0x1p-53) * (sieve->age + clock));
 }
 
 static const double shadows_last = 64; /* units of time: the error of a time in binary32 grows as long */
@@ -75,12 +77,15 @@ static void cast_shadows(struct touchstone_engine *engine)
 		cast_shadow(engine, i);
 	}
 	struct sieve *sieve = &shadows->sieve;
+	double place = 0;
 	sieve->boxes = 0;
 	for (int axis = 0; axis < 3; axis++) {
+		if (axis < engine->dimensions) place = fmax(place, engine->place_width[axis]);
 		sieve->box[axis] = engine->periodic[axis] ? (float)(engine->box[axis] * shadows->per_length) : 0;
 		sieve->boxes += sieve->box[axis];
 	}
 	sieve->roundoff = (float)ldexp(1, -engine->bits);
+	sieve->grain = (float)ldexp(place * shadows->per_length, 1 - engine->bits);
 	sieve->by_order = engine->method->sieve == SIEVE_ORDER;
 	keep_time(engine);
 }
@@ -91,7 +96,7 @@ static float latest_planned(const struct touchstone_engine *engine, const struct
 	const struct sieve *sieve = &engine->shadows.sieve;
 	if (!sieve->by_order || plan->meets == MEETS_NOTHING) return INFINITY;
 	double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - engine->shadows.now;
-	return (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->drift);
+	return (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->late);
 }
 
 /* Pairs of one particle, and when each of them may have its next event. */

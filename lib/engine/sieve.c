@@ -62,7 +62,7 @@ INLINE struct own own_of(const struct sieve *sieve, const struct shadow *shadow)
 	float length = shadow->radius > 0x1p-9f ? 2 * shadow->radius : 1;
 	return (struct own){.shadow = *shadow,
 						.speed = fabsf(v[0]) + fabsf(v[1]) + fabsf(v[2]),
-						.g_fixed = 8 * u * (sieve->boxes + size),
+						.g_fixed = 8 * u * (sieve->boxes + size) + sieve->grain,
 						.g_time = 12 * u * sieve->span + sieve->drift,
 						.two_lengths = 2 * length,
 						.per_length = 6 / length,
@@ -101,7 +101,7 @@ INLINE struct others others_of(const struct sieve *sieve, const struct own *own,
 	lanes g = own->g_fixed + own->g_time * others.s;
 	others.c_fixed = g * (own->two_lengths + 4 * g) + (64 * n * age * age) * (others.s * others.s) + tiny;
 	others.c_slope = own->per_length * g + (144 * u + 192 * n);
-	others.error_b = others.s * (2 * g + own->b_fixed + (16 * n * age) * others.s + own->b_slope * others.rr) + tiny;
+	others.error_b = others.s * (2 * g + own->b_fixed + (16 * n * age + sieve->late) * others.s + own->b_slope * others.rr) + tiny;
 	return others;
 }
 
@@ -136,7 +136,7 @@ INLINE struct meeting meeting_of(const struct others *o, lanes c, lanes q, const
 /* The latest meeting that is still of interest, when some surely come no later than `high`. */
 INLINE float latest_of(const struct sieve *sieve, float latest, lanes high, const struct steps *step)
 {
-	float soonest = step->least(high) * 1.0001f + sieve->drift;
+	float soonest = step->least(high) * 1.0001f + sieve->late;
 	return soonest < latest ? soonest : latest;
 }
 

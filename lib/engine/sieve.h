@@ -7,24 +7,27 @@
  * 1-norms (they are cheap and never less than the Euclidean ones):
  *
  *     S    sum of both speeds                    R    distance
- *     h    error of a component of r: g + 4 u R with g = u (8 boxes + 8 |x_i| + 12 S span) + S drift. Each position,
- *          speed and time is rounded once (u of itself), the flight to now twice more, the difference and the image's
- *          shift twice; |x_j| is at most |x_i| + R + S span and the shift; a time is at most `span`; `drift` is what
- *          the working arithmetic's own flights since the last events err by, as a time
+ *     h    error of a component of r: g + 4 u R with g = u (8 boxes + 8 |x_i| + 12 S span) + grain + S drift. Each
+ *          position, speed and time is rounded once (u of itself), the flight to now twice more, the difference and the
+ *          image's shift twice; |x_j| is at most |x_i| + R + S span and the shift; a time is at most `span`; `grain` is
+ *          what the working arithmetic's own difference of two places errs by, and `drift` its flights since the last
+ *          events, as a time
  *     E_c  error of c = r.r - s^2:  q = 4 h (R + h) + (32 u + 64 n) (R^2 + s^2) + 64 n (S age)^2
- *     E_b  error of b = r.v:        S (2 h + (12 u + 16 n) R + 16 n S age)
+ *     E_b  error of b = r.v:        S (2 h + (12 u + 16 n) R + 16 n S age + S late)
  *     E_D  error of b^2 - a c:      2 S^2 q
  *
  * The terms in n bound the working arithmetic's polynomial, formed at the later of the two last events, when the
  * distance was at most F = R + S age (coefficients within 4 n S^2, 6 n F S, 8 n (F^2 + s^2)), and shifted to now.
- * First-order sums of these give half of the figures above or less; the other half pays for second orders, for the
- * rounding of the bounds and for subnormal numbers. Whether products and sums are fused does not matter.
+ * `late` is what its event times err by, which says nothing of where anything is; but a meeting that was just before
+ * now may by rounding be one of now, and two meetings may change places. First-order sums of these give half of the
+ * figures above or less; the other half pays for second orders, for the rounding of the bounds and for subnormal
+ * numbers. Whether products and sums are fused does not matter.
  *
  * What is reckoned with is linear in r.r, which is known last: R^2 is at most 3 r.r, and 2 R at most L + R^2 / L for
  * any length L, here the particle's own diameter (1 where it has none to speak of), so that
  *
  *     E_c  <=  g (2 L + 4 g) + (32 u + 64 n) s^2 + 64 n (S age)^2  +  r.r (6 g / L + 144 u + 192 n)
- *     E_b  <=  S (2 g + (10 u + 8 n) L + 16 n S age)               +  r.r S (30 u + 24 n) / L
+ *     E_b  <=  S (2 g + (10 u + 8 n) L + 16 n S age + S late)      +  r.r S (30 u + 24 n) / L
  *
  * A pair is left out when it surely parts (b > E_b: what it may have met is in the past), surely misses (D < -E_D), or
  * surely meets later than some other pair surely meets. A comparison with a NaN leaves nothing out. */
@@ -47,7 +50,9 @@ struct sieve {
 	float span;     /* no time is larger: `now` itself */
 	float age;      /* no particle's last event is longer ago */
 	float roundoff; /* of the working arithmetic: n */
+	float grain;    /* error of its differences of places */
 	float drift;    /* error of its flights, as a time */
+	float late;     /* error of its event times */
 	float heard;    /* pairs no farther apart than so many times their contact distance pass in any case; 0: none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
 	bool images;    /* whether any entry may be an image */

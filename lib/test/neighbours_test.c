@@ -16,7 +16,7 @@ static void bands_are_the_same_from_both_ends(void **state)
 	(void)state;
 	struct random_state random = random_seed(SEED);
 	print_message("seed %d\n", SEED);
-	uint64_t listed = 0, anew = 0;
+	uint64_t listed = 0, anew = 0, lists = 0;
 	for (int trial = 0; trial < 300; trial++) {
 		struct anchor anchor[ANCHORS];
 		struct bands bands = {0};
@@ -38,7 +38,7 @@ static void bands_are_the_same_from_both_ends(void **state)
 			count++;
 		}
 		bands_lister *lister;
-		for (size_t machine = 0; (lister = bands_machine(machine)); machine++) {
+		for (size_t machine = 0; (lister = bands_machine(machine)); machine++, lists++) {
 			size_t all = lister(&bands, anchor, box, nowhere, anchor[0].at, entry, count, found), at = 0, fresh = 0;
 			for (uint32_t k = 0; k < count; k++) {
 				const float *other = anchor[entry_particle(entry[k])].at;
@@ -62,7 +62,7 @@ static void bands_are_the_same_from_both_ends(void **state)
 			anew += fresh;
 		}
 	}
-	assert_true(listed > 1000 && anew > 0 && anew < listed / 2);
+	assert_true(3 * listed > 5 * lists && anew > 0 && anew < listed / 2);
 }
 
 /* Too many bands become fewer, none of which is lost. */

@@ -71,7 +71,8 @@ static struct sieve sieve_at(double box, double now)
 						  .span = (float)now,
 						  .age = (float)now,
 						  .roundoff = 0x1p-53f,
-						  .drift = 0x1p-40f};
+						  .drift = 0x1p-40f,
+						  .late = 0x1p-40f};
 }
 
 /* A search beside one that begins later in its list leaves the same as alone, and so does the other. */

@@ -1,0 +1,88 @@
+/* Cells hide no neighbour, and the sieve leaves none out, where numbers are coarse: by a late clock in the absolute
+ * form, in few bits, and under methods that have their events early or late. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "scene/scene.h"
+#include "test/gas.h"
+#include "touchstone.h"
+
+enum { SEED = 1963 };
+
+static bool brief; /* under sanitizers, where everything takes ten times longer */
+
+static struct touchstone_status run(const struct scene_recipe *recipe, const char *arithmetic, const char *method,
+									uint64_t events)
+{
+	struct touchstone_scene scene;
+	struct scene_error complaint;
+	char error[160] = "";
+	if (!scene_build(recipe, SEED, &scene, &complaint)) fail_msg("%s %s", complaint.key, complaint.text);
+	struct touchstone_engine *engine = touchstone_create(&scene, arithmetic, method, error);
+	if (!engine) fail_msg("%s", error);
+	touchstone_run(engine, &(struct touchstone_limits){events, INFINITY, NULL}, NULL);
+	struct touchstone_status status;
+	touchstone_status(engine, &status);
+	touchstone_destroy(engine);
+	scene_free(&scene);
+	return status;
+}
+
+static void assert_search_does_not_matter(struct scene_recipe recipe, const char *arithmetic, const char *method)
+{
+	const uint64_t events = brief ? 100 : 400;
+	recipe.form = TOUCHSTONE_ABSOLUTE;
+	recipe.search = TOUCHSTONE_ALL;
+	struct touchstone_status all = run(&recipe, arithmetic, method, events);
+	assert_true(all.events > 0);
+	for (int sieved = 0; sieved < 2; sieved++) {
+		recipe.search = sieved ? TOUCHSTONE_CELLS : TOUCHSTONE_UNSIEVED;
+		struct touchstone_status cells = run(&recipe, arithmetic, method, events);
+		if (cells.digest != all.digest || cells.events != all.events)
+			fail_msg("%s, %s, clock %g, %s: %016llx after %llu events, but %016llx after %llu when all are looked at",
+					 arithmetic, method, recipe.clock, sieved ? "sieved" : "unsieved", (unsigned long long)cells.digest,
+					 (unsigned long long)cells.events, (unsigned long long)all.digest, (unsigned long long)all.events);
+	}
+}
+
+static void late_clocks_hide_nobody(void **state)
+{
+	(void)state;
+	static const double clocks[] = {10, 1e3, 1e6};
+	static const char *const arithmetics[] = {"short:16", "short:20", "short:22", "short:25", "binary32"};
+	static const char *const methods[] = {"stable", "naive", "tc", "positional"};
+	for (size_t c = 0; c < sizeof clocks / sizeof *clocks; c++)
+		for (size_t a = 0; a < sizeof arithmetics / sizeof *arithmetics; a++)
+			for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+				struct scene_recipe recipe = gas(3, 32, 0.5);
+				recipe.clock = clocks[c];
+				assert_search_does_not_matter(recipe, arithmetics[a], methods[m]);
+			}
+}
+
+static void shifted_events_hide_nobody(void **state)
+{
+	(void)state;
+	static const char *const arithmetics[] = {"short:11", "short:12", "short:13", "short:15", "short:20"};
+	for (size_t a = 0; a < sizeof arithmetics / sizeof *arithmetics; a++) {
+		assert_search_does_not_matter(gas(3, 64, 0.3), arithmetics[a], "stretch");
+		assert_search_does_not_matter(gas(3, 64, 0.3), arithmetics[a], "last-event");
+	}
+}
+
+int main(void)
+{
+	brief = getenv("TOUCHSTONE_BRIEF");
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(late_clocks_hide_nobody),
+		cmocka_unit_test(shifted_events_hide_nobody),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
