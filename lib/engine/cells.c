@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/memory.h"
+
 #ifdef __x86_64__
 #include <immintrin.h>
 #endif
@@ -29,7 +31,7 @@ bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], c
 				z * (ptrdiff_t)cells->stride[2] + y * (ptrdiff_t)cells->stride[1] - (ptrdiff_t)cells->stride[0];
 	cells->entries = total;
 	size_t bytes = (total + 16) * sizeof *cells->entry; /* rows may be read 16 entries at a time */
-	cells->entry = malloc(bytes);
+	cells->entry = memory_room(bytes);
 	if (cells->entry) memset(cells->entry, 0xff, bytes);
 	return cells->entry;
 }

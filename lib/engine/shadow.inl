@@ -161,6 +161,11 @@ static void sift(struct touchstone_engine *engine, const uint32_t *particle, int
 	for (int p = 0; p < particles; p++) {
 		candidates[p] = search[p].count;
 		/* Mostly one, and seldom more than two. A loop over so many as there are would have to be guessed. */
-		for (int k = 0; k < 2; k++) __builtin_prefetch(&engine->body[entry_particle(engine->candidate[p][k])]);
+		for (int k = 0; k < 2; k++) {
+			uint32_t other = entry_particle(engine->candidate[p][k]);
+			__builtin_prefetch(&engine->body[other]);
+			__builtin_prefetch(&engine->place[other]);
+			__builtin_prefetch(&engine->itinerary[other]);
+		}
 	}
 }
