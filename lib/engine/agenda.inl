@@ -89,8 +89,12 @@ static void agenda_destroy(struct agenda *agenda)
 static bool agenda_create(struct agenda *agenda, double day, size_t days, double page, double offset)
 {
 	double today = floor(page / day) + floor(offset / day);
-	*agenda =
-		(struct agenda){.day = day, .per_day = 1 / day, .days = days, .today = today, .horizon = today + (double)days};
+	*agenda = (struct agenda){.day = day,
+							  .per_day = 1 / day,
+							  .days = days,
+							  .today = today,
+							  .horizon = today + (double)days,
+							  .wide = days >= (size_t)1 << 14};
 	agenda->pile = memory_room(days * sizeof *agenda->pile);
 	agenda->used = calloc(days, sizeof *agenda->used);
 	if (agenda->pile) memset(agenda->pile, 0, days * sizeof *agenda->pile);
