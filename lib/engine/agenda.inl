@@ -255,9 +255,9 @@ static void fetch_notes(const struct agenda *agenda, const void *context, int of
 /* Fetches the days that come into the cache, each thing a day after that which tells where it is. */
 static void fetch_ahead(const struct agenda *agenda, const void *context)
 {
-	__builtin_prefetch(&agenda->pile[place_of(agenda, agenda->today + 4)]);
+	ahead(&agenda->pile[place_of(agenda, agenda->today + 4)]);
 	uint32_t more = agenda->pile[place_of(agenda, agenda->today + 3)].more;
-	if (more) __builtin_prefetch(&agenda->block[more]);
+	if (more) ahead(&agenda->block[more]);
 	fetch_notes(agenda, context, 2, note_far_ahead);
 	fetch_notes(agenda, context, 1, note_ahead);
 }

@@ -10,6 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "engine/ahead.h"
+
 /* An entry: the particle in the low bits; above them two bits per axis, the image: 0, or 1 for +1, or 2 for -1. */
 enum { ENTRY_BITS = 26 };
 #define ENTRY_PARTICLE ((UINT32_C(1) << ENTRY_BITS) - 1)
@@ -90,8 +92,8 @@ static inline void cells_ahead(const struct cells *cells, const uint16_t cell[3]
 {
 	const uint32_t *centre = cells->entry + cells_index(cells, cell);
 	for (int row = 0; row < cells->rows; row++) { /* a row is seldom longer than a cache line, but often lies in two */
-		__builtin_prefetch(centre + cells->row[row]);
-		__builtin_prefetch(centre + cells->row[row] + 3 * cells->capacity - 1);
+		ahead(centre + cells->row[row]);
+		ahead(centre + cells->row[row] + 3 * cells->capacity - 1);
 	}
 }
 

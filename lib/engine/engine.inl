@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/ahead.h"
 #include "engine/bands.h"
 #include "engine/cells.h"
 #include "engine/memory.h"

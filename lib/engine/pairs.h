@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "engine/ahead.h"
+
 struct pair_state {
 	uint32_t entry; /* the partner, and its image as the bucket's own particle sees it */
 	uint32_t state; /* > 0 */
@@ -50,7 +52,7 @@ static inline const struct pair_state *pairs_of(const struct pairs *pairs, uint3
 static inline void pairs_ahead(const struct pairs *pairs, uint32_t i)
 {
 	const struct pair_state *slot = pairs->slot + pairs->bucket[i].first, *end = slot + pairs->bucket[i].used;
-	for (; slot < end; slot += 64 / sizeof *slot) __builtin_prefetch(slot);
+	for (; slot < end; slot += 64 / sizeof *slot) ahead(slot);
 }
 
 /* State of particle i and an entry; 0 for those not stored. */

@@ -244,9 +244,9 @@ static struct entry entry_of(const void *context, struct note note)
 /* What an event changes and looks at, of one of its particles. */
 static void particle_ahead(const struct touchstone_engine *engine, uint32_t i)
 {
-	__builtin_prefetch(&engine->body[i], 1);
-	__builtin_prefetch(&engine->place[i]);
-	if (engine->shadows.shadow) __builtin_prefetch(&engine->shadows.shadow[i], 1);
+	ahead(&engine->body[i]);
+	ahead(&engine->place[i]);
+	if (engine->shadows.shadow) ahead(&engine->shadows.shadow[i]);
 }
 
 /* The cell where a particle will be looked for when what comes next for it has come. */
@@ -284,14 +284,14 @@ static void note_ahead(const void *context, struct note note)
 	cells_ahead(&engine->cells, cell);
 	particle_ahead(engine, note.particle);
 	uint32_t partner = next_partner(engine, note.particle);
-	__builtin_prefetch(&engine->itinerary[partner], 1);
+	ahead(&engine->itinerary[partner]);
 	particle_ahead(engine, partner);
 }
 
 static void note_far_ahead(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	__builtin_prefetch(&engine->itinerary[note.particle], 1);
+	ahead(&engine->itinerary[note.particle]);
 }
 
 static bool entry_first(const void *context, const struct entry *a, const struct entry *b)

@@ -141,7 +141,7 @@ static void foresee(struct touchstone_engine *engine, uint32_t i, const struct p
 	struct held held = {entry, outer, inner};
 	forecast->first =
 		(uint32_t)shadows->machine->hold(&shadows->sieve, shadows->shadow, i, &held, count, forecast->soonest);
-	__builtin_prefetch(&engine->body[entry_particle(entry[forecast->first])]);
+	ahead(&engine->body[entry_particle(entry[forecast->first])]);
 }
 
 /* Of the entries listed for one or two particles, keeps those that they may meet before their plans. */
@@ -163,9 +163,9 @@ static void sift(struct touchstone_engine *engine, const uint32_t *particle, int
 		/* Mostly one, and seldom more than two. A loop over so many as there are would have to be guessed. */
 		for (int k = 0; k < 2; k++) {
 			uint32_t other = entry_particle(engine->candidate[p][k]);
-			__builtin_prefetch(&engine->body[other]);
-			__builtin_prefetch(&engine->place[other]);
-			__builtin_prefetch(&engine->itinerary[other]);
+			ahead(&engine->body[other]);
+			ahead(&engine->place[other]);
+			ahead(&engine->itinerary[other]);
 		}
 	}
 }
