@@ -57,7 +57,10 @@ static int shown(const struct cells *cells, int axis, int coordinate, int at[3],
 static bool replace(struct cells *cells, size_t index, uint32_t old, uint32_t entry)
 {
 	uint32_t *slot = cells->entry + index, at = cells->capacity;
-	for (uint32_t i = cells->capacity; i-- > 0;) at = slot[i] == old ? i : at;
+	if (cells->packed)
+		for (at = 0; at < cells->capacity && slot[at] != old;) at++;
+	else
+		for (uint32_t i = cells->capacity; i-- > 0;) at = slot[i] == old ? i : at;
 	if (at == cells->capacity) return false;
 	uint32_t last = at;
 	while (cells->packed && entry == entry_none && last + 1 < cells->capacity && slot[last + 1] != entry_none) last++;

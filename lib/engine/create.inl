@@ -22,33 +22,16 @@ static bool suits(const struct method *method, const struct touchstone_scene *sc
 static void engine_destroy(struct touchstone_engine *engine)
 {
 	if (!engine) return;
-	for (size_t p = 0; p < engine->potential_count; p++) {
-		free(engine->potential[p].step);
-		free(engine->potential[p].limits);
-	}
+	for (size_t p = 0; p < engine->potential_count; p++) free(engine->potential[p].step);
 	cells_destroy(&engine->cells);
 	pairs_destroy(&engine->pairs);
 	pairs_destroy(&engine->neighbours.pairs);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body,
-					 engine->place,
-					 engine->itinerary,
-					 engine->index_of,
-					 engine->radius,
-					 engine->mass,
-					 engine->wall,
-					 engine->candidate[0],
-					 engine->shadows.shadow,
-					 engine->shadows.radius,
-					 engine->potential,
-					 engine->potential_of,
-					 engine->virtual_wall,
-					 engine->side,
-					 engine->crossed,
-					 engine->captured,
-					 engine->temperature,
-					 engine->last_met,
-					 engine->neighbours.anchor};
+	void *owned[] = {engine->body,           engine->place,          engine->itinerary,      engine->index_of,
+					 engine->radius,         engine->mass,           engine->wall,           engine->candidate[0],
+					 engine->shadows.shadow, engine->shadows.radius, engine->shadows.limits, engine->potential,
+					 engine->potential_of,   engine->virtual_wall,   engine->side,           engine->crossed,
+					 engine->captured,       engine->temperature,    engine->last_met,       engine->neighbours.anchor};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -208,6 +191,7 @@ static bool set_sieve(struct touchstone_engine *engine)
 	bool straight = !engine->accelerated, alone = engine->count < 2;
 	if (engine->search != TOUCHSTONE_CELLS || engine->method->sieve == SIEVE_NOTHING || !straight || alone) return true;
 	if (!set_shadow_radii(engine)) return shadows->radius;
+	if (engine->captured && !set_limits(engine)) return false;
 	shadows->machine = sieve_machine(0);
 	shadows->shadow = memory_room(engine->count * sizeof *shadows->shadow);
 	return shadows->shadow;

@@ -12,8 +12,7 @@ static bool set_potential(struct touchstone_engine *engine, const struct touchst
 	if (to_double(potential->core) == diameters)
 		potential->core = add(engine->radius[species[0]], engine->radius[species[1]]);
 	potential->step = calloc(said->step_count + 1, sizeof *potential->step);
-	potential->limits = calloc(said->step_count + 1, sizeof *potential->limits);
-	if (!potential->step || !potential->limits) return false;
+	if (!potential->step) return false;
 	potential->step_count = (uint32_t)said->step_count;
 	for (size_t s = 0; s < said->step_count; s++) { /* outwards in the scene, inwards here */
 		const struct touchstone_step *step = &said->steps[said->step_count - 1 - s];
@@ -22,10 +21,8 @@ static bool set_potential(struct touchstone_engine *engine, const struct touchst
 		potential->step[s].distance = from_double(step->distance);
 		potential->step[s].climb = divide(mul(add(gain, gain), add(first, second)), mul(first, second));
 		potential->step[s].energy = energy;
-		potential->limits[s].inner = potential->limits[s + 1].outer = (float)step->distance;
 		outside = inside;
 	}
-	potential->limits[said->step_count].inner = (float)to_double(potential->core);
 	if (said->step_count) engine->reach = fmax(engine->reach, to_double(potential->step[0].distance));
 	return true;
 }
@@ -80,6 +77,30 @@ static bool set_virtual_walls(struct touchstone_engine *engine, const struct tou
 		for (int axis = 0; axis < engine->dimensions; axis++)
 			if (engine->periodic[axis] && normal[axis] != 0) wall->axis = axis, wall->along = normal[axis] > 0 ? 1 : -1;
 	}
+	return true;
+}
+
+/* Makes the table of limits, in units of the shadows' length; the first of them is nobody's. */
+static bool set_limits(struct touchstone_engine *engine)
+{
+	struct shadows *shadows = &engine->shadows;
+	size_t species = engine->species_count, count = 1 + species * species;
+	double scale = 1 / power_of_two_below(engine->reach);
+	for (size_t p = 0; p < engine->potential_count; p++) count += engine->potential[p].step_count + 1;
+	struct limits *limits = shadows->limits = calloc(count, sizeof *limits);
+	if (!limits) return false;
+	limits++;
+	for (size_t p = 0; p < engine->potential_count; p++, limits++) {
+		struct potential *potential = &engine->potential[p];
+		potential->limits = (size_t)(limits - shadows->limits);
+		for (uint32_t s = 0; s < potential->step_count; s++, limits++)
+			limits[0].inner = limits[1].outer = (float)(to_double(potential->step[s].distance) * scale);
+		limits->inner = (float)(to_double(potential->core) * scale);
+	}
+	shadows->hard_limits = (size_t)(limits - shadows->limits);
+	for (size_t a = 0; a < species; a++)
+		for (size_t b = 0; b < species; b++, limits++)
+			limits->inner = (float)(to_double(add(engine->radius[a], engine->radius[b])) * scale);
 	return true;
 }
 

@@ -107,9 +107,26 @@ static size_t newly_near(const struct touchstone_engine *engine, const float fro
 
 static const float nowhere[3] = {NAN, NAN, NAN};
 
-static bool enlist(struct touchstone_engine *engine, uint32_t i, uint32_t entry)
+static bool enlist(struct touchstone_engine *engine, uint32_t i, uint32_t entry, uint32_t state)
 {
-	return pairs_add(&engine->neighbours.pairs, i, entry, 1 + pairs_get(&engine->pairs, i, entry));
+	return pairs_add(&engine->neighbours.pairs, i, entry, 1 + state);
+}
+
+/* The state of a pair that was not listed while particle i had its anchor at `from`: what the distance of the anchors
+ * says, which is near no step. */
+static uint32_t unlisted_state(const struct touchstone_engine *engine, uint32_t i, const float from[3], uint32_t entry)
+{
+	uint32_t j = entry_particle(entry), state = 0;
+	const float *other = engine->neighbours.anchor[j].at;
+	const struct potential *potential = potential_between(engine, i, j);
+	double square = 0;
+	if (!potential || isnan(from[0])) return pairs_get(&engine->pairs, i, entry);
+	for (int axis = 0; axis < engine->dimensions; axis++) {
+		double offset = (double)from[axis] - other[axis] - entry_image(entry, axis) * engine->box[axis];
+		square += offset * offset;
+	}
+	while (state < potential->step_count && square < pow(to_double(potential->step[state].distance), 2)) state++;
+	return state;
 }
 
 /* Takes out of the list of particle i, which had its anchor at `from`, all that are not near `to`. */
@@ -135,7 +152,8 @@ static bool move_anchor(struct touchstone_engine *engine, uint32_t i, const floa
 	size_t candidates = cells_around(&engine->cells, engine->itinerary[i].cell, i, candidate);
 	bool enough = true;
 	*fresh = newly_near(engine, from, to, candidate, candidates, found);
-	for (size_t k = 0; k < *fresh; k++) enough &= enlist(engine, i, found[k]);
+	for (size_t k = 0; k < *fresh; k++)
+		enough &= enlist(engine, i, found[k], unlisted_state(engine, i, from, found[k]));
 	memcpy(engine->neighbours.anchor[i].at, to, 3 * sizeof *to);
 	return enough;
 }
@@ -170,7 +188,8 @@ static bool list_neighbours(struct touchstone_engine *engine)
 		size_t candidates = cells_around(&engine->cells, engine->itinerary[i].cell, i, candidate);
 		size_t near = newly_near(engine, nowhere, neighbours->anchor[i].at, candidate, candidates, found);
 		for (size_t k = 0; k < near; k++)
-			if (entry_particle(found[k]) < i) enough &= enlist(engine, i, found[k]);
+			if (entry_particle(found[k]) < i)
+				enough &= enlist(engine, i, found[k], pairs_get(&engine->pairs, i, found[k]));
 	}
 	return enough;
 }

@@ -33,13 +33,12 @@ static inline uint8_t first_meeting(const struct touchstone_engine *engine, uint
 	return species_meeting(engine, engine->place[i].species, engine->place[j].species, distance);
 }
 
-/* Between which distances a pair is, by its state. */
-static inline struct limits limits_of(const struct touchstone_engine *engine, uint32_t i, uint32_t j, uint32_t state)
+/* The number in the shadows' table of the distances between which a pair in some state is. */
+static inline size_t limits_number(const struct touchstone_engine *engine, uint32_t i, uint32_t j, uint32_t state)
 {
 	const struct potential *potential = potential_between(engine, i, j);
-	if (potential) return potential->limits[state];
-	num contact = add(engine->radius[engine->place[i].species], engine->radius[engine->place[j].species]);
-	return (struct limits){0, (float)to_double(contact)};
+	if (potential) return potential->limits + state;
+	return engine->shadows.hard_limits + engine->place[i].species * engine->species_count + engine->place[j].species;
 }
 
 /* Distance at which two hard bodies, or two cores, are in contact. */

@@ -102,7 +102,10 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 	unsigned policy = engine->method->policy;
 	engine->now = (struct moment){engine->itinerary[i].page, engine->itinerary[i].time};
 	if (engine->neighbours.skin > 0)
-		for (int p = 0; p < particles; p++) pairs_ahead(&engine->neighbours.pairs, met[p]);
+		for (int p = 0; p < particles; p++) {
+			pairs_ahead(&engine->neighbours.pairs, met[p]);
+			pairs_ahead(&engine->pairs, met[p]);
+		}
 	if (policy & POLICY_SEARCH) search_back(engine, i, meets, partner);
 	keep_time(engine);
 	if (meets == TOUCHSTONE_CONTACT)

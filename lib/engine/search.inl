@@ -134,11 +134,12 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 		itinerary->partner_changes = engine->itinerary[entry_particle(plan->partner)].changes;
 }
 
-static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
-static void consider_states(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
-							uint32_t more, struct plan *plan);
-static void consider_neighbours(struct touchstone_engine *engine, const uint32_t *particle, int particles,
-								struct plan plan[2]);
+static void consider_captured(struct touchstone_engine *engine, const uint32_t *particle, int particles,
+							  struct plan *plan);
+static void consider_stored(struct touchstone_engine *engine, const struct pairs *pairs, uint32_t more,
+							const uint32_t *particle, int particles, struct plan *plan);
+static void consider_listed(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
+							struct plan *plan);
 static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates);
 static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
 static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *particle, int particles);
@@ -156,7 +157,7 @@ static void predict_listed(struct touchstone_engine *engine, const uint32_t *par
 				cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], engine->candidate[p]);
 		tell_tests(engine, particle, engine->candidate, candidates, particles);
 	}
-	consider_neighbours(engine, particle, particles, plan);
+	consider_stored(engine, &engine->neighbours.pairs, 1, particle, particles, plan);
 }
 
 /* Looks at everything that one or two particles may meet. Two that have just met are looked after step by step
@@ -182,7 +183,7 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 		bool heard = captures && engine->executing && engine->listener;
 		bool sieved = heard && sieve_listens(engine, particle, particles);
 		if (heard && !sieved) tell_tests(engine, particle, list, candidates, particles);
-		for (int p = 0; captures && p < particles; p++) consider_captured(engine, particle[p], &plan[p]);
+		if (captures) consider_captured(engine, particle, particles, plan);
 		sift(engine, particle, particles, candidates, plan);
 		if (sieved) tell_tests(engine, particle, list, candidates, particles);
 		engine->shadows.sieve.heard = 0;
@@ -213,16 +214,14 @@ static void predict_entered(struct touchstone_engine *engine, uint32_t i, const 
 	plan_keep(engine, i, &plan);
 }
 
-/* The same for `fresh` particles that have come near, in candidate[1]. */
+/* The same for `fresh` particles that have come near, at the end of its list. */
 static void predict_fresh(struct touchstone_engine *engine, uint32_t i, size_t fresh)
 {
 	const struct itinerary *itinerary = &engine->itinerary[i];
 	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false};
-	for (size_t k = 0; k < fresh; k++) {
-		uint32_t entry = engine->candidate[1][k];
-		struct pair_state pair = {entry, pairs_get(&engine->neighbours.pairs, i, entry)};
-		consider_states(engine, i, &pair, 1, 1, &plan);
-	}
+	uint32_t count;
+	const struct pair_state *listed = pairs_of(&engine->neighbours.pairs, i, &count);
+	consider_listed(engine, i, listed + count - fresh, (uint32_t)fresh, &plan);
 	plan_keep(engine, i, &plan);
 }
 

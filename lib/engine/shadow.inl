@@ -99,6 +99,12 @@ static float latest_planned(const struct touchstone_engine *engine, const struct
 	return (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->late);
 }
 
+/* Whether it is of use to foresee pairs: whether some may be left out for others. */
+static bool sieves_states(const struct touchstone_engine *engine)
+{
+	return engine->shadows.shadow && engine->method->sieve == SIEVE_ORDER;
+}
+
 /* Pairs of one particle, and when each of them may have its next event. */
 enum { FORESEEN = 64 };
 struct forecast {
@@ -106,42 +112,46 @@ struct forecast {
 	uint32_t count, more;         /* each holds so much more than its state */
 	uint32_t first;               /* which of them may have the first event, */
 	float soonest[FORESEEN + 16]; /* and the times after the search's before which they have none */
+	struct pair_state numbered[FORESEEN];
 };
 
-/* Whether this is of use: whether pairs may be left out for others. */
-static bool sieves_states(const struct touchstone_engine *engine)
+/* What the sieve is asked of the pairs of particle i: where there are many kinds, each is given the number of its
+ * limits for its state. */
+static struct sieve_outlook outlook_of(const struct touchstone_engine *engine, uint32_t i, struct forecast *forecast)
 {
-	return engine->shadows.shadow && engine->method->sieve == SIEVE_ORDER;
+	const struct limits *limits = engine->shadows.limits;
+	struct sieve_outlook outlook = {i, forecast->pair, limits, forecast->count, forecast->soonest, 0};
+	if (engine->species_count == 1) {
+		outlook.limits += 1 - forecast->more;
+		return outlook;
+	}
+	for (uint32_t k = 0; k < forecast->count; k++) {
+		uint32_t entry = forecast->pair[k].entry;
+		size_t number = limits_number(engine, i, entry_particle(entry), forecast->pair[k].state - forecast->more);
+		forecast->numbered[k] = (struct pair_state){entry, (uint32_t)number};
+	}
+	outlook.pair = forecast->numbered;
+	return outlook;
 }
 
-/* Foresees `count` pairs of particle i, no more than FORESEEN. */
-static void foresee(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
-					uint32_t more, struct forecast *forecast)
+/* Foresees the pairs of one or two particles, no more than FORESEEN each. */
+static void foresee(struct touchstone_engine *engine, const uint32_t *particle, int particles,
+					struct forecast *forecast)
 {
 	struct shadows *shadows = &engine->shadows;
-	uint32_t entry[FORESEEN + 16], images = 0;
-	float outer[FORESEEN + 16], inner[FORESEEN + 16], scale = (float)shadows->per_length;
-	const struct limits *limits = engine->species_count == 1 ? engine->potential->limits : NULL;
-	forecast->pair = pair;
-	forecast->count = count;
-	forecast->more = more;
-	forecast->first = 0;
-	forecast->soonest[0] = INFINITY;
-	if (!count) return;
-	for (uint32_t k = 0; k < count; k++) {
-		uint32_t state = pair[k].state - more;
-		entry[k] = pair[k].entry;
-		images |= entry[k];
-		struct limits own = limits ? limits[state] : limits_of(engine, i, entry_particle(entry[k]), state);
-		outer[k] = own.outer * scale;
-		inner[k] = own.inner * scale;
+	struct sieve_outlook outlook[2];
+	uint32_t images = 0;
+	for (int p = 0; p < particles; p++) {
+		forecast[p].soonest[0] = INFINITY;
+		for (uint32_t k = 0; k < forecast[p].count; k++) images |= forecast[p].pair[k].entry;
+		outlook[p] = outlook_of(engine, particle[p], &forecast[p]);
 	}
-	for (uint32_t k = count; k < count + 16; k++) entry[k] = entry[0], outer[k] = inner[k] = 1;
 	shadows->sieve.images = images >> ENTRY_BITS;
-	struct held held = {entry, outer, inner};
-	forecast->first =
-		(uint32_t)shadows->machine->hold(&shadows->sieve, shadows->shadow, i, &held, count, forecast->soonest);
-	ahead(&engine->body[entry_particle(entry[forecast->first])]);
+	shadows->machine->hold(&shadows->sieve, shadows->shadow, outlook, particles);
+	for (int p = 0; p < particles; p++) {
+		forecast[p].first = (uint32_t)outlook[p].first;
+		if (forecast[p].count) ahead(&engine->body[entry_particle(forecast[p].pair[outlook[p].first].entry)]);
+	}
 }
 
 /* Of the entries listed for one or two particles, keeps those that they may meet before their plans. */

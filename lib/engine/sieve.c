@@ -29,6 +29,9 @@ struct steps {
 	lanes (*pick)(flags which, lanes yes, lanes no);
 	float (*least)(lanes x);
 	size_t (*pack)(flags wanted, const uint32_t *from, uint32_t *to); /* what is wanted, close together: how many */
+	/* the entries of sixteen pairs, or as many as there are and then 0, and their limits */
+	void (*limits)(const struct pair_state *pair, size_t count, const struct limits *limits, uint32_t *entry,
+				   lanes *outer, lanes *inner);
 };
 
 INLINE lanes size_of(lanes x)
@@ -101,7 +104,8 @@ INLINE struct others others_of(const struct sieve *sieve, const struct own *own,
 	lanes g = own->g_fixed + own->g_time * others.s;
 	others.c_fixed = g * (own->two_lengths + 4 * g) + (64 * n * age * age) * (others.s * others.s) + tiny;
 	others.c_slope = own->per_length * g + (144 * u + 192 * n);
-	others.error_b = others.s * (2 * g + own->b_fixed + (16 * n * age + sieve->late) * others.s + own->b_slope * others.rr) + tiny;
+	others.error_b =
+		others.s * (2 * g + own->b_fixed + (16 * n * age + sieve->late) * others.s + own->b_slope * others.rr) + tiny;
 	return others;
 }
 
@@ -209,8 +213,8 @@ INLINE void pass(const struct sieve *sieve, const struct shadow *shadow, struct 
 INLINE lanes bound_of(const struct sieve *sieve, const struct others *o, lanes inner, lanes outer,
 					  const struct steps *step)
 {
+	static const float fine = 0x1p-9f; /* for a root and an inverse that are near */
 	const lanes zero = {0};
-	const float fine = 0x1p-18f + 16 * sieve->roundoff;
 	flags parts = step->less(zero, outer);
 	lanes farther = step->pick(parts, outer, inner);
 	lanes q = error_of_c(sieve, o, farther * farther), error_b = o->error_b, b = o->b + error_b;
@@ -220,35 +224,51 @@ INLINE lanes bound_of(const struct sieve *sieve, const struct others *o, lanes i
 	flags misses = step->less(error_b, o->b) | step->less(d + error_d, zero);
 	flags meets = step->less(b, zero) & step->less(error_d, d);
 	lanes square = step->pick(meets, d + error_d, b * b * (1 - 32 * u) - a * c);
-	lanes end = step->root(step->pick(step->less(zero, square), square, zero));
+	flags some = step->less(zero + tiny, square);
+	lanes above = step->near_root(step->pick(some, square, zero + tiny)), end = step->pick(some, above, zero);
 	flags opens = step->less(zero, b);
 	lanes over = step->pick(meets, c_meets - q, step->pick(opens, -c, end - b));
-	lanes under = step->pick(meets, error_b - o->b + end, step->pick(opens, b + end, a));
-	lanes low = over / under * (1 - fine);
+	lanes under = step->pick(meets, error_b - o->b + above, step->pick(opens, b + above, a));
+	lanes low = over * step->near_inverse(under) * (1 - fine);
 	return step->pick(meets | (misses & parts), low, step->pick(misses, zero + INFINITY, zero));
 }
 
-INLINE size_t hold(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, const struct held *held,
-				   size_t count, float *soonest, const struct steps step)
+/* The next sixteen of one outlook, or of two: step by step together. */
+INLINE void hold_next(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
+					  const struct own *own, float *least, int outlooks, size_t at, const struct steps *step)
 {
-	const struct own own = own_of(sieve, &shadow[i]);
 	const lanes zero = {0};
-	float least = INFINITY;
-	size_t first = 0;
-	for (size_t k = 0; k < count; k += LANES) {
-		struct others others = others_of(sieve, &own, shadow, held->entry + k, &step);
-		lanes inner, outer;
-		memcpy(&inner, held->inner + k, sizeof inner);
-		memcpy(&outer, held->outer + k, sizeof outer);
-		lanes low = bound_of(sieve, &others, inner, outer, &step);
-		low = step.pick(behind(count - k), zero + INFINITY, low);
-		memcpy(soonest + k, &low, sizeof low);
-		float least_here = step.least(low);
-		if (!(least_here < least)) continue;
-		least = least_here;
-		first = k + (size_t)__builtin_ctz(~step.less(zero + least, low));
+	lanes outer[2], inner[2];
+	struct others others[2];
+	for (int k = 0; k < outlooks; k++) {
+		uint32_t entry[LANES] __attribute__((aligned(64)));
+		step->limits(outlook[k].pair + at, outlook[k].count - at, outlook[k].limits, entry, &outer[k], &inner[k]);
+		others[k] = others_of(sieve, &own[k], shadow, entry, step);
 	}
-	return first;
+	for (int k = 0; k < outlooks; k++) {
+		lanes low = bound_of(sieve, &others[k], inner[k], outer[k], step);
+		low = step->pick(behind(outlook[k].count - at), zero + INFINITY, low);
+		memcpy(outlook[k].soonest + at, &low, sizeof low);
+		float least_here = step->least(low);
+		if (!(least_here < least[k])) continue;
+		least[k] = least_here;
+		outlook[k].first = at + (size_t)__builtin_ctz(~step->less(zero + least_here, low));
+	}
+}
+
+INLINE void hold(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook, int outlooks,
+				 const struct steps *step)
+{
+	struct own own[2];
+	float least[2] = {INFINITY, INFINITY};
+	size_t at = 0;
+	for (int k = 0; k < outlooks; k++) own[k] = own_of(sieve, &shadow[outlook[k].self]), outlook[k].first = 0;
+	if (outlooks == 2)
+		for (; at < outlook[0].count && at < outlook[1].count; at += LANES)
+			hold_next(sieve, shadow, outlook, own, least, 2, at, step);
+	for (int k = 0; k < outlooks; k++)
+		for (size_t rest = at; rest < outlook[k].count; rest += LANES)
+			hold_next(sieve, shadow, &outlook[k], &own[k], &least[k], 1, rest, step);
 }
 
 INLINE void fetch_any(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS])
@@ -298,18 +318,33 @@ INLINE size_t pack_any(flags wanted, const uint32_t *from, uint32_t *to)
 	return kept;
 }
 
-static const struct steps steps_any = {fetch_any, root_any, root_any,  inverse_any,
-									   less_any,  pick_any, least_any, pack_any};
+INLINE void limits_any(const struct pair_state *pair, size_t count, const struct limits *limits, uint32_t *entry,
+					   lanes *outer, lanes *inner)
+{
+	const struct pair_state none = {0, pair->state};
+	for (size_t lane = 0; lane < LANES; lane++) {
+		struct pair_state one = lane < count ? pair[lane] : none;
+		entry[lane] = one.entry;
+		(*outer)[lane] = limits[one.state].outer;
+		(*inner)[lane] = limits[one.state].inner;
+	}
+}
+
+static const struct steps steps_any = {fetch_any, root_any,  root_any, inverse_any, less_any,
+									   pick_any,  least_any, pack_any, limits_any};
 
 static void pass_any(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search, int searches)
 {
 	pass(sieve, shadow, search, searches, &steps_any);
 }
 
-static size_t hold_any(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, const struct held *held,
-					   size_t count, float *soonest)
+static void hold_any(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
+					 int outlooks)
 {
-	return hold(sieve, shadow, self, held, count, soonest, steps_any);
+	if (outlooks == 1)
+		hold(sieve, shadow, outlook, 1, &steps_any);
+	else
+		hold(sieve, shadow, outlook, 2, &steps_any);
 }
 
 static void cast_any(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy, double vz,

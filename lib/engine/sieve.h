@@ -38,6 +38,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "engine/pairs.h"
+
 struct shadow {              /* half a cache line */
 	float position[3], time; /* where it was at a time not later than the search's */
 	float velocity[3], radius;
@@ -71,11 +73,17 @@ struct sieve_search {
 typedef void sieve_pass(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
 						int searches);
 
-/* Pairs that are within one distance and, it may be, beyond another: they part at the one, or meet at the other. The
- * arrays hold 16 more at their ends: entries that name particles which exist, and any distances. */
+/* Between which distances a pair is: it parts at the outer one, or meets at the inner one. 0: whatever is farther, or
+ * nearer, nothing happens there. */
+struct limits {
+	float outer, inner;
+};
+
+/* Pairs and their limits, by columns: the arrays hold 16 more at their ends, entries that name particles which exist,
+ * and any distances. */
 struct held {
 	const uint32_t *entry;
-	const float *outer, *inner; /* outer: 0 where they do not part; inner: 0 where there is nothing to meet */
+	const float *outer, *inner;
 };
 
 /* Looks over `count` pairs, where `outer` may be INFINITY: writes the numbers of those that are not surely nearer than
@@ -84,14 +92,25 @@ struct held {
 typedef size_t sieve_check(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
 						   const struct held *held, size_t count, uint32_t *kept);
 
-/* Writes to `soonest`, which has room for 16 more, a time after now for each of `count` pairs of this kind before which
- * it has no event: INFINITY where it has none. Returns the number of the pair for which it is least.
+/* One search of another kind: of `count` pairs, each of which is between the limits that its state is the number of,
+ * when they may have their next event. */
+struct sieve_outlook {
+	uint32_t self;
+	const struct pair_state *pair;
+	const struct limits *limits;
+	size_t count;
+	float *soonest; /* has room for 16 more */
+	size_t first;   /* the pair for which it is least */
+};
+
+/* Writes to each outlook, of one or two of one time, a time after now for each pair before which it has no event:
+ * INFINITY where it has none.
  *
  * Where a pair surely meets, this is the lower bound that the sieve has. Where it surely does not, it parts: at the
  * larger root of a t^2 + 2 b t + c, which falls as any of a, b and c grows, so that their errors bound it: E_c, E_b,
  * and (16 u + 8 n) S^2 of a. */
-typedef size_t sieve_hold(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
-						  const struct held *held, size_t count, float *soonest);
+typedef void sieve_hold(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
+						int outlooks);
 
 /* Writes a shadow whole: what is written in pieces is slow to be read back whole. */
 typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,

@@ -107,8 +107,8 @@ AVX2 static void cast_avx2(struct shadow *shadow, double x, double y, double z, 
 	_mm256_store_ps((float *)shadow, row);
 }
 
-static const struct steps steps_avx2 = {fetch_avx2, root_avx2, near_root_avx2, near_inverse_avx2,
-										less_avx2,  pick_avx2, least_avx2,     pack_any};
+static const struct steps steps_avx2 = {fetch_avx2, root_avx2,  near_root_avx2, near_inverse_avx2, less_avx2,
+										pick_avx2,  least_avx2, pack_any,       limits_any};
 
 AVX2 static void pass_avx2(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
 						   int searches)
@@ -119,10 +119,13 @@ AVX2 static void pass_avx2(const struct sieve *sieve, const struct shadow *shado
 		pass(sieve, shadow, search, 2, &steps_avx2);
 }
 
-AVX2 static size_t hold_avx2(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
-							 const struct held *held, size_t count, float *soonest)
+AVX2 static void hold_avx2(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
+						   int outlooks)
 {
-	return hold(sieve, shadow, self, held, count, soonest, steps_avx2);
+	if (outlooks == 1)
+		hold(sieve, shadow, outlook, 1, &steps_avx2);
+	else
+		hold(sieve, shadow, outlook, 2, &steps_avx2);
 }
 
 /* A transposition of two squares of eight at once: the registers hold rows 0 to 3 and 8 to 11 in their lower halves. */
@@ -187,8 +190,23 @@ AVX512 static inline size_t pack_512(flags wanted, const uint32_t *from, uint32_
 	return (size_t)__builtin_popcount(wanted);
 }
 
-static const struct steps steps_512 = {fetch_512, root_512, near_root_512, near_inverse_512,
-									   less_512,  pick_512, least_512,     pack_512};
+/* Pairs and limits are two words each. */
+AVX512 static inline void limits_512(const struct pair_state *pair, size_t count, const struct limits *limits,
+									 uint32_t *entry, lanes *outer, lanes *inner)
+{
+	uint32_t halves = count < LANES ? (UINT32_C(1) << 2 * count) - 1 : UINT32_MAX;
+	__m512i low = _mm512_maskz_loadu_epi32((__mmask16)halves, pair);
+	__m512i high = _mm512_maskz_loadu_epi32((__mmask16)(halves >> 16), pair + LANES / 2);
+	const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+	__m512i state = _mm512_permutex2var_epi32(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high);
+	_mm512_store_si512(entry, _mm512_permutex2var_epi32(low, even, high));
+	__mmask16 there = count < LANES ? (__mmask16)((1u << count) - 1) : 0xffff;
+	*outer = (lanes)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), there, state, &limits->outer, sizeof *limits);
+	*inner = (lanes)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), there, state, &limits->inner, sizeof *limits);
+}
+
+static const struct steps steps_512 = {fetch_512, root_512,  near_root_512, near_inverse_512, less_512,
+									   pick_512,  least_512, pack_512,      limits_512};
 
 AVX512 static void pass_512(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
 							int searches)
@@ -199,8 +217,11 @@ AVX512 static void pass_512(const struct sieve *sieve, const struct shadow *shad
 		pass(sieve, shadow, search, 2, &steps_512);
 }
 
-AVX512 static size_t hold_512(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
-							  const struct held *held, size_t count, float *soonest)
+AVX512 static void hold_512(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
+							int outlooks)
 {
-	return hold(sieve, shadow, self, held, count, soonest, steps_512);
+	if (outlooks == 1)
+		hold(sieve, shadow, outlook, 1, &steps_512);
+	else
+		hold(sieve, shadow, outlook, 2, &steps_512);
 }

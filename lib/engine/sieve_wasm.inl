@@ -62,8 +62,8 @@ INLINE void fetch_128(const struct shadow *shadow, const uint32_t *entry, lanes 
 		}
 }
 
-static const struct steps steps_128 = {fetch_128, root_128, root_128,  inverse_any,
-									   less_128,  pick_128, least_128, pack_any};
+static const struct steps steps_128 = {fetch_128, root_128,  root_128, inverse_any, less_128,
+									   pick_128,  least_128, pack_any, limits_any};
 
 static void pass_128(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search, int searches)
 {
@@ -73,8 +73,11 @@ static void pass_128(const struct sieve *sieve, const struct shadow *shadow, str
 		pass(sieve, shadow, search, 2, &steps_128);
 }
 
-static size_t hold_128(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, const struct held *held,
-					   size_t count, float *soonest)
+static void hold_128(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
+					 int outlooks)
 {
-	return hold(sieve, shadow, self, held, count, soonest, steps_128);
+	if (outlooks == 1)
+		hold(sieve, shadow, outlook, 1, &steps_128);
+	else
+		hold(sieve, shadow, outlook, 2, &steps_128);
 }

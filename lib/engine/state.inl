@@ -77,19 +77,14 @@ struct step {
 	uint64_t pairs; /* in that state now */
 };
 
-/* Between which distances a pair in some state is; 0: whatever is nearer, or farther, nothing happens there. */
-struct limits {
-	float outer, inner;
-};
-
 /* What the particles of two species are to each other. */
 struct potential {
 	bool hard; /* whether they collide: */
 	num core;  /* at this distance */
 	struct touchstone_restitution restitution;
 	uint32_t step_count;
-	struct step *step;     /* from outside in */
-	struct limits *limits; /* for the sieve: of each state */
+	struct step *step; /* from outside in */
+	size_t limits;     /* in the shadows' table, those of its outermost state: the others follow */
 };
 
 /* A virtual wall, which stands once in every image of the box along `axis`. */
@@ -104,6 +99,8 @@ struct virtual_wall {
 struct shadows {
 	struct shadow *shadow; /* NULL: the sieve is not used */
 	double *radius;        /* per species: two add up to the distance at which two particles first meet */
+	struct limits *limits; /* of pairs in their states, by potentials; then of hard bodies, by pairs of species: */
+	size_t hard_limits;    /* from here on */
 	const struct sieve_machine *machine;
 	struct sieve sieve;
 	double base_page, base_time;            /* when the shadows' time is 0 */

@@ -39,42 +39,53 @@ static void consider_forecast(struct touchstone_engine *engine, uint32_t i, cons
 	}
 }
 
-/* The same with `count` pairs that hold `more` than their state. */
-static void consider_states(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
-							uint32_t more, struct plan *plan)
+/* The same with what stands in a store, `more` than its state, for one or two particles: step by step together. */
+static void consider_stored(struct touchstone_engine *engine, const struct pairs *pairs, uint32_t more,
+							const uint32_t *particle, int particles, struct plan *plan)
+{
+	struct forecast forecast[2];
+	uint32_t left[2] = {0};
+	for (int p = 0; p < particles; p++) {
+		forecast[p].pair = pairs_of(pairs, particle[p], &left[p]);
+		forecast[p].more = more;
+	}
+	while (left[0] || left[1]) {
+		for (int p = 0; p < particles; p++) forecast[p].count = left[p] < FORESEEN ? left[p] : FORESEEN;
+		foresee(engine, particle, particles, forecast);
+		for (int p = 0; p < particles; p++) {
+			consider_forecast(engine, particle[p], &forecast[p], &plan[p]);
+			forecast[p].pair += forecast[p].count;
+			left[p] -= forecast[p].count;
+		}
+	}
+}
+
+/* With all that one or two particles have captured. */
+static void consider_captured(struct touchstone_engine *engine, const uint32_t *particle, int particles,
+							  struct plan *plan)
+{
+	if (sieves_states(engine)) {
+		consider_stored(engine, &engine->pairs, 0, particle, particles, plan);
+		return;
+	}
+	for (int p = 0; p < particles; p++) {
+		uint32_t count;
+		const struct pair_state *captured = pairs_of(&engine->pairs, particle[p], &count);
+		for (uint32_t k = 0; k < count; k++) consider_partner(engine, particle[p], captured[k], &plan[p]);
+	}
+}
+
+/* With so many pairs that are listed. */
+static void consider_listed(struct touchstone_engine *engine, uint32_t i, const struct pair_state *pair, uint32_t count,
+							struct plan *plan)
 {
 	for (uint32_t some; count; pair += some, count -= some) {
 		struct forecast forecast;
 		some = count < FORESEEN ? count : FORESEEN;
-		foresee(engine, i, pair, some, more, &forecast);
+		forecast.pair = pair, forecast.count = some, forecast.more = 1;
+		foresee(engine, &i, 1, &forecast);
 		consider_forecast(engine, i, &forecast, plan);
 	}
-}
-
-/* With all that a particle has captured. */
-static void consider_captured(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
-{
-	uint32_t count;
-	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
-	if (sieves_states(engine))
-		consider_states(engine, i, captured, count, 0, plan);
-	else
-		for (uint32_t k = 0; k < count; k++) consider_partner(engine, i, captured[k], plan);
-}
-
-/* With all that are listed by one or two particles, step by step together. */
-static void consider_neighbours(struct touchstone_engine *engine, const uint32_t *particle, int particles,
-								struct plan plan[2])
-{
-	struct forecast forecast[2];
-	for (int p = 0; p < particles; p++) {
-		uint32_t count;
-		const struct pair_state *list = pairs_of(&engine->neighbours.pairs, particle[p], &count);
-		uint32_t some = count < FORESEEN ? count : FORESEEN;
-		foresee(engine, particle[p], list, some, 1, &forecast[p]);
-		if (count > some) consider_states(engine, particle[p], list + some, count - some, 1, &plan[p]);
-	}
-	for (int p = 0; p < particles; p++) consider_forecast(engine, particle[p], &forecast[p], &plan[p]);
 }
 
 /* Takes what particle i has captured out of a list of entries it may meet; returns how many are left. The sieve may

@@ -92,9 +92,9 @@ static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *part
 
 /* ------------------------------------------------------------------ the tests after an event */
 
-/* Some of those that particle i is tested against. */
+/* Some of those that particle i is tested against, and how many of them are in a state. */
 struct tests {
-	uint32_t count, state[HEARD];
+	uint32_t count, captured, state[HEARD];
 	struct bounds bounds;
 };
 
@@ -103,11 +103,13 @@ static inline void add_test(const struct touchstone_engine *engine, uint32_t i, 
 {
 	const struct potential *potential = potential_between(engine, i, entry_particle(entry));
 	if (!potential || !potential->step_count) return;
+	const struct step *step = potential->step + state;
 	double margin = engine->listener->margin, unit = engine->shadows.per_length, inner = 0, outer = INFINITY;
 	if (state < potential->step_count)
-		inner = to_double(potential->step[state].distance) * (state ? 1 + margin : engine->listener->reach) * unit;
-	if (state) outer = margin < 1 ? to_double(potential->step[state - 1].distance) * (1 - margin) * unit : 0;
+		inner = to_double(step->distance) * (state ? 1 + margin : engine->listener->reach) * unit;
+	if (state) outer = margin < 1 ? to_double(step[-1].distance) * (1 - margin) * unit : 0;
 	uint32_t k = tests->count++;
+	tests->captured += state > 0;
 	tests->state[k] = state;
 	tests->bounds.entry[k] = entry;
 	tests->bounds.inner[k] = (float)inner;
@@ -118,18 +120,21 @@ static inline void add_test(const struct touchstone_engine *engine, uint32_t i, 
 static void tell_some(struct touchstone_engine *engine, uint32_t i, struct tests *tests)
 {
 	uint32_t kept[HEARD + 16], count = tests->count;
-	size_t left = count, at = 0;
-	tests->count = 0;
+	size_t left = count;
+	engine->listener->tests += tests->captured;
+	tests->count = tests->captured = 0;
 	if (!count) return;
-	for (uint32_t k = 0; k < count; k++) kept[k] = k;
 	for (uint32_t k = count; k < count + 16; k++)
 		tests->bounds.entry[k] = i, tests->bounds.inner[k] = tests->bounds.outer[k] = 1;
-	if (engine->shadows.shadow) left = out_of_bounds(engine, i, tests->bounds.entry, &tests->bounds, count, kept);
-	for (uint32_t k = 0; k < count; k++)
-		if (at < left && kept[at] == k)
-			tell_test(engine, i, tests->bounds.entry[k], tests->state[k]), at++;
-		else
-			engine->listener->tests += tests->state[k] > 0;
+	if (engine->shadows.shadow)
+		left = out_of_bounds(engine, i, tests->bounds.entry, &tests->bounds, count, kept);
+	else
+		for (uint32_t k = 0; k < count; k++) kept[k] = k;
+	for (size_t at = 0; at < left; at++) {
+		uint32_t k = kept[at], state = tests->state[k];
+		engine->listener->tests -= state > 0; /* it counts itself */
+		tell_test(engine, i, tests->bounds.entry[k], state);
+	}
 }
 
 /* The state of particle i and an entry, while the partners it has captured are marked. */
@@ -148,7 +153,7 @@ static void tell_tests_of(struct touchstone_engine *engine, uint32_t i, const ui
 	uint32_t count;
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
 	struct tests tests;
-	tests.count = 0;
+	tests.count = tests.captured = 0;
 	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = (uint16_t)(k + 1);
 	for (size_t k = 0; k < candidates; k++) {
 		if (entry_particle(list[k]) == but) continue;

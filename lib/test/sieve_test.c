@@ -205,8 +205,10 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint
 	struct particle particle[PARTICLES];
 	const double box = ldexp(1, (int)between(2, 10)), now = between(0.1, 64), centre = between(-0.5, 0.5) * box;
 	const double speed = ldexp(1, (int)between(-6, 6));
-	uint32_t count = 1 + (uint32_t)between(0, PARTICLES - 2), entry[ROOM];
-	float outer[ROOM], inner[ROOM], bound[ROOM];
+	uint32_t count = 1 + (uint32_t)between(0, PARTICLES - 2);
+	struct pair_state pair[2][PARTICLES];
+	struct limits limits[PARTICLES];
+	float bound[2][ROOM];
 	long double wait[PARTICLES], soonest = INFINITY;
 	for (uint32_t i = 0; i <= count; i++) {
 		struct particle *p = &particle[i];
@@ -215,12 +217,11 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint
 		for (int axis = 0; axis < 3; axis++)
 			direction[axis] = between(-1, 1), length += direction[axis] * direction[axis];
 		if (i) {
-			outer[i - 1] = (float)between(1, 3);
-			inner[i - 1] = between(0, 1) < 0.2 ? 0 : outer[i - 1] * (float)between(0.2, 1);
-			double low = inner[i - 1];
-			distance = distance < 0.2   ? outer[i - 1]
-					   : distance < 0.4 ? low
-										: low + (outer[i - 1] - low) * between(0, 1);
+			struct limits *own = &limits[i - 1];
+			own->outer = (float)between(1, 3);
+			own->inner = between(0, 1) < 0.2 ? 0 : own->outer * (float)between(0.2, 1);
+			double low = own->inner;
+			distance = distance < 0.2 ? own->outer : distance < 0.4 ? low : low + (own->outer - low) * between(0, 1);
 		}
 		for (int axis = 0; axis < 3; axis++) {
 			p->velocity[axis] = between(-speed, speed);
@@ -229,14 +230,15 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint
 		}
 	}
 	for (uint32_t k = 0; k < count; k++)
-		if (between(0, 1) < 0.3) inner[k] = outer[k], outer[k] = 0; /* some are not within: they do not part */
-	for (uint32_t k = 0; k < ROOM; k++) entry[k] = k < count ? k + 1 : (uint32_t)between(0, count + 1);
-	for (uint32_t k = count; k < ROOM; k++) outer[k] = inner[k] = (float)between(0, 1);
+		if (between(0, 1) < 0.3)
+			limits[k] = (struct limits){0, limits[k].outer}; /* some are not within: they do not part */
+	for (uint32_t k = 0; k < count; k++) pair[0][k] = pair[1][count - 1 - k] = (struct pair_state){k + 1, k};
 	for (uint32_t k = 0; k < count; k++) {
 		struct particle sized = particle[0];
-		sized.radius = inner[k];
+		sized.radius = limits[k].inner;
 		long double in = meeting(&sized, &particle[k + 1], (double[3]){0}, now);
-		long double out = outer[k] > 0 ? parting(&particle[0], &particle[k + 1], outer[k], now) : INFINITY;
+		long double out =
+			limits[k].outer > 0 ? parting(&particle[0], &particle[k + 1], limits[k].outer, now) : INFINITY;
 		wait[k] = in < out ? in : out;
 		if (wait[k] < soonest) soonest = wait[k];
 	}
@@ -245,18 +247,25 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint
 	const struct sieve_machine *machine;
 	for (size_t m = 0; (machine = sieve_machine(m)); m++) {
 		for (uint32_t i = 0; i <= count; i++) cast(machine, &shadow[i], &particle[i]);
-		size_t first = machine->hold(&sieve, shadow, 0, &(struct held){entry, outer, inner}, count, bound);
+		uint32_t fewer = 1 + (uint32_t)between(0, count);
+		struct sieve_outlook outlook[2] = {{0, pair[0], limits, count, bound[0], 0},
+										   {0, pair[1] + count - fewer, limits, fewer, bound[1], 0}};
+		machine->hold(&sieve, shadow, outlook, 2);
+		for (uint32_t k = 0; k < fewer; k++) assert_true(bound[0][k] == bound[1][fewer - 1 - k]);
+		bound[1][0] = NAN;
+		machine->hold(&sieve, shadow, outlook, 1);
+		assert_true(isnan(bound[1][0]));
 		*all += count;
 		for (uint32_t k = 0; k < count; k++) {
-			*asked += bound[k] <= soonest;
-			*tight += bound[k] == INFINITY ? wait[k] == INFINITY : bound[k] >= wait[k] * 0.999L;
-			if (!(bound[k] <= wait[k])) {
+			*asked += bound[0][k] <= soonest;
+			*tight += bound[0][k] == INFINITY ? wait[k] == INFINITY : bound[0][k] >= wait[k] * 0.995L;
+			if (!(bound[0][k] <= wait[k])) {
 				print_message("%s has pair %u of %u do nothing before %g, wait %Lg, from %g to %g, speed %g\n",
-							  machine->name, k, count, (double)bound[k], wait[k], (double)inner[k], (double)outer[k],
-							  speed);
+							  machine->name, k, count, (double)bound[0][k], wait[k], (double)limits[k].inner,
+							  (double)limits[k].outer, speed);
 				fail();
 			}
-			assert_true(bound[first] <= bound[k]);
+			assert_true(bound[0][outlook[0].first] <= bound[0][k]);
 		}
 	}
 }
