@@ -22,9 +22,8 @@ struct entry {
 
 enum { PILE = 7 };
 
-struct pile { /* one cache line */
-	uint32_t used;
-	uint32_t more; /* number of the block that goes on with it; 0: none */
+struct pile {                   /* one cache line */
+	_Alignas(64) uint32_t more; /* number of the block that goes on with it, which is full; 0: none */
 	struct note note[PILE];
 };
 
@@ -39,7 +38,8 @@ struct agenda {
 	double horizon;     /* first day that the ring does not hold */
 	size_t days;        /* size of the ring, a power of two */
 	double per_day;     /* its reciprocal, exactly */
-	struct pile *pile;  /* the days of the ring */
+	struct pile *pile;  /* the days of the ring, */
+	uint8_t *used;      /* and how many notes each holds: apart, so that to add one waits for no cache line */
 	size_t piled;       /* entries in the ring */
 	struct pile *block; /* what does not fit into a day's own pile; number 0 is never used */
 	uint32_t blocks, block_room, spare;
@@ -49,6 +49,7 @@ struct agenda {
 	size_t distants, distant_room;
 	size_t beyond;           /* events so far off that their day has no exact number: they were not entered */
 	uint64_t opened, sorted; /* days opened and entries found there: to judge the length of a day by */
+	bool wide;               /* whether its days are so many that none is in the cache when it is opened */
 	bool exhausted;          /* memory ran out and entries were lost: the agenda is of no more use */
 };
 
@@ -57,8 +58,10 @@ static bool entry_first(const void *context, const struct entry *a, const struct
 static bool note_holds(const void *context, struct note note);
 static struct entry entry_of(const void *context, struct note note);
 
-/* Fetches into the cache what will be wanted when a note's turn comes. */
+/* Fetch into the cache what will be wanted when a note's turn comes: today, tomorrow, and the day after. */
+static void note_at_hand(const void *context, struct note note);
 static void note_ahead(const void *context, struct note note);
+static void note_far_ahead(const void *context, struct note note);
 
 /* Makes room for one more element; false when there is no memory. */
 static bool agenda_grow(void **array, size_t *room, size_t used, size_t size)
@@ -75,6 +78,7 @@ static bool agenda_grow(void **array, size_t *room, size_t used, size_t size)
 static void agenda_destroy(struct agenda *agenda)
 {
 	free(agenda->pile);
+	free(agenda->used);
 	free(agenda->block);
 	free(agenda->heap);
 	free(agenda->distant);
@@ -87,14 +91,15 @@ static bool agenda_create(struct agenda *agenda, double day, size_t days, double
 	double today = floor(page / day) + floor(offset / day);
 	*agenda =
 		(struct agenda){.day = day, .per_day = 1 / day, .days = days, .today = today, .horizon = today + (double)days};
-	agenda->pile = aligned_alloc(64, days * sizeof *agenda->pile);
+	agenda->pile = memory_room(days * sizeof *agenda->pile);
+	agenda->used = calloc(days, sizeof *agenda->used);
 	if (agenda->pile) memset(agenda->pile, 0, days * sizeof *agenda->pile);
-	return agenda->pile;
+	return agenda->pile && agenda->used;
 }
 
 static size_t agenda_memory(const struct agenda *agenda)
 {
-	return agenda->days * sizeof *agenda->pile + agenda->block_room * sizeof *agenda->block +
+	return agenda->days * (sizeof *agenda->pile + sizeof *agenda->used) + agenda->block_room * sizeof *agenda->block +
 		   agenda->heap_room * sizeof *agenda->heap + agenda->distant_room * sizeof *agenda->distant;
 }
 
@@ -113,23 +118,28 @@ static bool pile_move(struct agenda *agenda, struct pile *pile)
 	}
 	agenda->block[number] = *pile;
 	pile->more = number;
-	pile->used = 0;
 	return true;
 }
 
-static struct pile *agenda_pile(const struct agenda *agenda, double day)
+/* Where the ring holds a day. */
+static size_t place_of(const struct agenda *agenda, double day)
 {
-	return &agenda->pile[(size_t)(int64_t)day & (agenda->days - 1)];
+	return (size_t)(int64_t)day & (agenda->days - 1);
 }
 
 static void pile_add(struct agenda *agenda, double day, struct note note)
 {
-	struct pile *pile = agenda_pile(agenda, day);
-	if (pile->used == PILE && !pile_move(agenda, pile)) {
-		agenda->exhausted = true;
-		return;
+	size_t place = place_of(agenda, day);
+	struct pile *pile = &agenda->pile[place];
+	uint8_t *used = &agenda->used[place];
+	if (*used == PILE) {
+		if (!pile_move(agenda, pile)) {
+			agenda->exhausted = true;
+			return;
+		}
+		*used = 0;
 	}
-	pile->note[pile->used++] = note;
+	pile->note[(*used)++] = note;
 	agenda->piled++;
 }
 
@@ -212,17 +222,40 @@ static void agenda_turn(struct agenda *agenda, const void *context, double today
 	agenda->distants = kept;
 }
 
-/* Enters what a pile holds and still holds true into the heap, and empties it. */
-static void pile_enter(struct agenda *agenda, const void *context, struct pile *pile)
+/* Enters what so many notes of a pile still hold true into the heap. */
+static void pile_enter(struct agenda *agenda, const void *context, const struct pile *pile, uint32_t used)
 {
-	for (uint32_t i = 0; i < pile->used; i++) {
+	for (uint32_t i = 0; i < used; i++) {
 		if (!note_holds(context, pile->note[i])) continue;
-		note_ahead(context, pile->note[i]);
+		note_at_hand(context, pile->note[i]);
 		heap_add(agenda, context, entry_of(context, pile->note[i]));
 	}
-	agenda->piled -= pile->used;
-	agenda->sorted += pile->used;
-	pile->used = 0;
+	agenda->piled -= used;
+	agenda->sorted += used;
+}
+
+/* Calls `fetch` for each note of the day that is so many days off. */
+static void fetch_notes(const struct agenda *agenda, const void *context, int off,
+						void (*fetch)(const void *context, struct note note))
+{
+	size_t place = place_of(agenda, agenda->today + off);
+	const struct pile *pile = &agenda->pile[place];
+	uint32_t used = agenda->used[place];
+	for (;; used = PILE) {
+		for (uint32_t i = 0; i < used; i++) fetch(context, pile->note[i]);
+		if (!pile->more) return;
+		pile = &agenda->block[pile->more];
+	}
+}
+
+/* Fetches the days that come into the cache, each thing a day after that which tells where it is. */
+static void fetch_ahead(const struct agenda *agenda, const void *context)
+{
+	__builtin_prefetch(&agenda->pile[place_of(agenda, agenda->today + 4)]);
+	uint32_t more = agenda->pile[place_of(agenda, agenda->today + 3)].more;
+	if (more) __builtin_prefetch(&agenda->block[more]);
+	fetch_notes(agenda, context, 2, note_far_ahead);
+	fetch_notes(agenda, context, 1, note_ahead);
 }
 
 /* Opens the next day that has entries; false when there is none. `*turned` tells when a round ended on the way. */
@@ -240,16 +273,19 @@ static bool agenda_open(struct agenda *agenda, const void *context, bool *turned
 			agenda_turn(agenda, context, agenda->today);
 			*turned = true;
 		}
-		struct pile *pile = agenda_pile(agenda, agenda->today);
-		pile_enter(agenda, context, pile);
+		size_t place = place_of(agenda, agenda->today);
+		struct pile *pile = &agenda->pile[place];
+		pile_enter(agenda, context, pile, agenda->used[place]);
+		agenda->used[place] = 0;
 		while (pile->more) {
 			uint32_t number = pile->more;
-			pile_enter(agenda, context, &agenda->block[number]);
+			pile_enter(agenda, context, &agenda->block[number], PILE);
 			pile->more = agenda->block[number].more;
 			agenda->block[number].more = agenda->spare;
 			agenda->spare = number;
 		}
 		agenda->opened++;
+		if (agenda->wide) fetch_ahead(agenda, context);
 	}
 	return true;
 }

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/memory.h"
+
 #ifdef __x86_64__
 #include <immintrin.h>
 #endif
@@ -29,7 +31,7 @@ bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], c
 				z * (ptrdiff_t)cells->stride[2] + y * (ptrdiff_t)cells->stride[1] - (ptrdiff_t)cells->stride[0];
 	cells->entries = total;
 	size_t bytes = (total + 16) * sizeof *cells->entry; /* rows may be read 16 entries at a time */
-	cells->entry = malloc(bytes);
+	cells->entry = memory_room(bytes);
 	if (cells->entry) memset(cells->entry, 0xff, bytes);
 	return cells->entry;
 }
@@ -51,25 +53,25 @@ static int shown(const struct cells *cells, int axis, int coordinate, int at[3],
 	return views;
 }
 
-/* Writes `entry` in place of `old` in one cell. */
+/* Writes `entry` in place of `old` in one cell. Looks through all of it: where to stop would have to be guessed. */
 static bool replace(struct cells *cells, size_t index, uint32_t old, uint32_t entry)
 {
-	uint32_t *slot = cells->entry + index;
-	for (uint32_t i = 0; i < cells->capacity; i++) {
-		if (slot[i] == old) {
-			uint32_t last = i;
-			while (cells->packed && entry == entry_none && last + 1 < cells->capacity && slot[last + 1] != entry_none)
-				last++;
-			slot[i] = slot[last];
-			slot[last] = entry;
-			return true;
-		}
-	}
-	return false;
+	uint32_t *slot = cells->entry + index, at = cells->capacity;
+	for (uint32_t i = cells->capacity; i-- > 0;) at = slot[i] == old ? i : at;
+	if (at == cells->capacity) return false;
+	uint32_t last = at;
+	while (cells->packed && entry == entry_none && last + 1 < cells->capacity && slot[last + 1] != entry_none) last++;
+	slot[at] = slot[last];
+	slot[last] = entry;
+	return true;
 }
 
 static bool show(struct cells *cells, const uint16_t cell[3], uint32_t particle, bool enter)
 {
+	if (!cells_at_border(cells, cell)) {
+		size_t index = cells_index(cells, cell);
+		return enter ? replace(cells, index, entry_none, particle) : replace(cells, index, particle, entry_none);
+	}
 	int at[3][3] = {{0}}, views[3] = {1, 1, 1};
 	uint32_t code[3][3] = {{0}};
 	for (int axis = 0; axis < cells->dimensions; axis++)

@@ -83,7 +83,7 @@ static bool stalls(const struct touchstone_engine *engine, uint32_t i)
 	const struct body *body = &engine->body[i];
 	num since = add(sub(engine->now.time, body->time), from_double(engine->now.page - body->page));
 	num clock = engine->page_length < INFINITY ? from_double(engine->page_length) : engine->now.time;
-	return !less(mul(from_double(ldexp(1, 2 - engine->bits)), clock), since);
+	return !less(mul(engine->two_units, clock), since);
 }
 
 /* How many representable numbers `x` lies above `reference` (near it); the step below a power of two is half. */

@@ -172,9 +172,9 @@ static bool set_particles(struct touchstone_engine *engine, const struct touchst
 {
 	size_t count = scene->particle_count;
 	engine->count = (uint32_t)count;
-	engine->body = aligned_alloc(64, (count * sizeof *engine->body + 63) / 64 * 64);
-	engine->place = calloc(count, sizeof *engine->place);
-	engine->itinerary = aligned_alloc(64, count * sizeof *engine->itinerary);
+	engine->body = memory_room(count * sizeof *engine->body);
+	engine->place = memory_room(count * sizeof *engine->place);
+	engine->itinerary = memory_room(count * sizeof *engine->itinerary);
 	engine->index_of = malloc(count * sizeof *engine->index_of);
 	struct ordered *order = malloc(count * sizeof *order);
 	bool enough = engine->body && engine->place && engine->itinerary && engine->index_of && order;
@@ -209,7 +209,7 @@ static bool set_sieve(struct touchstone_engine *engine)
 	if (engine->search != TOUCHSTONE_CELLS || engine->method->sieve == SIEVE_NOTHING || !straight || alone) return true;
 	if (!set_shadow_radii(engine)) return shadows->radius;
 	shadows->machine = sieve_machine(0);
-	shadows->shadow = aligned_alloc(64, (engine->count * sizeof *shadows->shadow + 63) / 64 * 64);
+	shadows->shadow = memory_room(engine->count * sizeof *shadows->shadow);
 	return shadows->shadow;
 }
 
@@ -267,6 +267,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	engine->unit = &THIS_UNIT;
 	engine->method = chosen;
 	engine->bits = num_bits();
+	engine->two_units = from_double(ldexp(1, 2 - engine->bits));
 	engine->dimensions = scene->dimensions;
 	engine->restitution = scene->restitution;
 	engine->search = scene->search;

@@ -8,6 +8,7 @@
 
 #include "engine/bands.h"
 #include "engine/cells.h"
+#include "engine/memory.h"
 #include "engine/pairs.h"
 #include "engine/sieve.h"
 #include "overlap/excess.h"

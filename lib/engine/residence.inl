@@ -24,25 +24,38 @@ static double crossing_time(double gap, double speed, double acceleration, doubl
 	return gap_now <= 0 && speed + acceleration * passed > 0 ? passed : INFINITY;
 }
 
-/* How long after its last event a particle leaves its cell along an axis, and whether by the upper face. */
+/* The middle of the cell a particle is in, along an axis, and how far from there it leaves it. */
+static double middle_along(const struct touchstone_engine *engine, uint32_t i, int axis)
+{
+	return (engine->itinerary[i].cell[axis] - 0.5) * engine->cell_side[axis];
+}
+
+static double room_along(const struct touchstone_engine *engine, int axis)
+{
+	return 0.5 * engine->cell_side[axis] + engine->stray[axis];
+}
+
+/* Whether there is no other cell beyond that one, up or down an axis. */
+static bool ends_along(const struct touchstone_engine *engine, uint32_t i, int axis, bool up)
+{
+	return !engine->periodic[axis] && engine->itinerary[i].cell[axis] == (up ? engine->cells.count[axis] : 1);
+}
+
+/* How long after its last event a particle leaves its cell along an axis, and whether by the upper face. For straight
+ * flights without branches, which a processor would have to guess. */
 static double leaving_along(const struct touchstone_engine *engine, uint32_t i, int axis, bool *upper)
 {
-	double side = engine->cell_side[axis], speed = to_double(engine->body[i].velocity[axis]);
-	double position = coordinate_in_box(engine, i, axis);
-	int cell = engine->itinerary[i].cell[axis];
-	bool ends = !engine->periodic[axis]; /* beyond the last cell there is no other */
-	bool closed_low = ends && cell == 1, closed_high = ends && cell == engine->cells.count[axis];
-	double low = (cell - 1) * side - engine->stray[axis], high = cell * side + engine->stray[axis];
-	if (!engine->accelerated) { /* without branches that a processor would have to guess */
+	double speed = to_double(engine->body[i].velocity[axis]), room = room_along(engine, axis);
+	double offset = coordinate_in_box(engine, i, axis) - middle_along(engine, i, axis);
+	if (!engine->accelerated) {
 		*upper = speed > 0;
-		double time = ((*upper ? high : low) - position) / speed;
-		bool never = (*upper ? closed_high : closed_low) | (speed == 0);
-		return never ? INFINITY : time;
+		if (speed == 0 || ends_along(engine, i, axis, *upper)) return INFINITY; /* seldom, or always */
+		return (copysign(room, speed) - offset) / speed;
 	}
 	double gravity = to_double(engine->acceleration[axis]), passed = engine->itinerary[i].entered;
 	double up = INFINITY, down = INFINITY;
-	if (!closed_high) up = crossing_time(high - position, speed, gravity, passed);
-	if (!closed_low) down = crossing_time(position - low, -speed, -gravity, passed);
+	if (!ends_along(engine, i, axis, true)) up = crossing_time(room - offset, speed, gravity, passed);
+	if (!ends_along(engine, i, axis, false)) down = crossing_time(offset + room, -speed, -gravity, passed);
 	*upper = up < down;
 	return *upper ? up : down;
 }
@@ -59,7 +72,8 @@ static double leaving_wait(const struct touchstone_engine *engine, uint32_t i, u
 	for (int axis = 0; axis < engine->dimensions; axis++) {
 		bool upper;
 		double time = leaving_along(engine, i, axis, &upper);
-		face = time < soonest ? 1 + 2 * axis + upper : face;
+		bool sooner = time < soonest;
+		face += sooner * (1 + 2 * axis + upper - face);
 		soonest = time < soonest ? time : soonest;
 	}
 	*next = (uint8_t)face;
@@ -90,10 +104,8 @@ static bool stays(const struct touchstone_engine *engine, uint32_t i, double fli
 	if (engine->neighbours.skin > 0) return !leaves_anchor(engine, i, flight);
 	bool inside = true;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
-		double side = engine->cell_side[axis], stray = engine->stray[axis];
 		double end = coordinate_in_box(engine, i, axis) + to_double(engine->body[i].velocity[axis]) * flight;
-		double beyond = end - (engine->itinerary[i].cell[axis] - 1) * side;
-		inside &= (beyond > -stray) & (beyond < side + stray);
+		inside &= fabs(end - middle_along(engine, i, axis)) < room_along(engine, axis);
 	}
 	return inside;
 }
@@ -104,14 +116,13 @@ static bool may_step(const struct touchstone_engine *engine, uint32_t i, double 
 {
 	bool any = false;
 	for (int axis = 0; axis < engine->dimensions; axis++) {
-		double side = engine->cell_side[axis], speed = to_double(engine->body[i].velocity[axis]);
+		double speed = to_double(engine->body[i].velocity[axis]);
 		double at = coordinate_in_box(engine, i, axis) + speed * flight;
-		int cell = engine->itinerary[i].cell[axis], last = engine->cells.count[axis];
-		bool up = speed > 0, ends = !engine->periodic[axis] && cell == (up ? last : 1);
-		double beyond = up ? at - cell * side : (cell - 1) * side - at;
-		if (step[axis] || speed == 0 || ends || beyond < -engine->stray[axis]) continue;
-		step[axis] = up ? 1 : -1;
-		any = true;
+		double ahead = copysign(1, speed) * (at - middle_along(engine, i, axis));
+		bool up = speed > 0, there = ahead >= 0.5 * engine->cell_side[axis] - engine->stray[axis];
+		bool steps = there & (speed != 0) & (step[axis] == 0) & !ends_along(engine, i, axis, up);
+		step[axis] += steps * (2 * up - 1);
+		any |= steps;
 	}
 	return any;
 }

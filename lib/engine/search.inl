@@ -183,7 +183,7 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 		bool sieved = heard && sieve_listens(engine, particle, particles);
 		if (heard && !sieved) tell_tests(engine, particle, list, candidates, particles);
 		for (int p = 0; captures && p < particles; p++) consider_captured(engine, particle[p], &plan[p]);
-		for (int p = 0; p < particles; p++) candidates[p] = sift(engine, particle[p], list[p], candidates[p], &plan[p]);
+		sift(engine, particle, particles, candidates, plan);
 		if (sieved) tell_tests(engine, particle, list, candidates, particles);
 		engine->shadows.sieve.heard = 0;
 		for (int p = 0; captures && p < particles; p++)
@@ -207,7 +207,7 @@ static void predict_entered(struct touchstone_engine *engine, uint32_t i, const 
 	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, engine->itinerary[i].meets, false};
 	uint32_t *list = engine->candidate[0];
 	size_t candidates = cells_entered(&engine->cells, engine->itinerary[i].cell, step, i, list);
-	candidates = sift(engine, i, list, candidates, &plan);
+	sift(engine, &i, 1, &candidates, &plan);
 	if (engine->captured) candidates = without_captured(engine, i, list, candidates);
 	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);
@@ -241,12 +241,57 @@ static struct entry entry_of(const void *context, struct note note)
 	return (struct entry){itinerary->time, note, itinerary->partner, UINT32_C(1) + itinerary->meets};
 }
 
+/* What an event changes and looks at, of one of its particles. */
+static void particle_ahead(const struct touchstone_engine *engine, uint32_t i)
+{
+	__builtin_prefetch(&engine->body[i], 1);
+	__builtin_prefetch(&engine->place[i]);
+	if (engine->shadows.shadow) __builtin_prefetch(&engine->shadows.shadow[i], 1);
+}
+
+/* The cell where a particle will be looked for when what comes next for it has come. */
+static void next_cell(const struct itinerary *itinerary, uint16_t cell[3])
+{
+	memcpy(cell, itinerary->cell, sizeof itinerary->cell);
+	if (itinerary->next == NEXT_IS_PHYSICAL || itinerary->next == LEAVES_ANCHOR) return;
+	int axis = (itinerary->next - 1) / 2;
+	cell[axis] = (uint16_t)(cell[axis] + 2 * ((itinerary->next - 1) % 2) - 1);
+}
+
+/* The partner in what comes next, or the particle itself. */
+static uint32_t next_partner(const struct touchstone_engine *engine, uint32_t i)
+{
+	const struct itinerary *itinerary = &engine->itinerary[i];
+	bool meets = itinerary->next == NEXT_IS_PHYSICAL && with_particle(itinerary->meets);
+	return meets ? entry_particle(itinerary->partner) : i;
+}
+
+static void note_at_hand(const void *context, struct note note)
+{
+	const struct touchstone_engine *engine = context;
+	if (engine->agenda.wide)
+		cells_ahead(&engine->cells, engine->itinerary[next_partner(engine, note.particle)].cell);
+	else
+		particle_ahead(engine, note.particle);
+}
+
 static void note_ahead(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	__builtin_prefetch(&engine->body[note.particle], 1);
-	__builtin_prefetch(&engine->place[note.particle]);
-	if (engine->shadows.shadow) __builtin_prefetch(&engine->shadows.shadow[note.particle], 1);
+	if (!note_holds(context, note)) return;
+	uint16_t cell[3];
+	next_cell(&engine->itinerary[note.particle], cell);
+	cells_ahead(&engine->cells, cell);
+	particle_ahead(engine, note.particle);
+	uint32_t partner = next_partner(engine, note.particle);
+	__builtin_prefetch(&engine->itinerary[partner], 1);
+	particle_ahead(engine, partner);
+}
+
+static void note_far_ahead(const void *context, struct note note)
+{
+	const struct touchstone_engine *engine = context;
+	__builtin_prefetch(&engine->itinerary[note.particle], 1);
 }
 
 static bool entry_first(const void *context, const struct entry *a, const struct entry *b)

@@ -90,14 +90,13 @@ static void cast_shadows(struct touchstone_engine *engine)
 	keep_time(engine);
 }
 
-/* What comes after the plan is of no interest. */
-static void keep_plan(struct touchstone_engine *engine, const struct plan *plan)
+/* What comes after the plan is of no interest: in the sieve's time, from now. */
+static float latest_planned(const struct touchstone_engine *engine, const struct plan *plan)
 {
-	struct sieve *sieve = &engine->shadows.sieve;
-	sieve->latest = INFINITY;
-	if (!sieve->by_order || plan->meets == MEETS_NOTHING) return;
+	const struct sieve *sieve = &engine->shadows.sieve;
+	if (!sieve->by_order || plan->meets == MEETS_NOTHING) return INFINITY;
 	double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - engine->shadows.now;
-	sieve->latest = (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->late);
+	return (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->late);
 }
 
 /* Pairs of one particle, and when each of them may have its next event. */
@@ -145,16 +144,28 @@ static void foresee(struct touchstone_engine *engine, uint32_t i, const struct p
 	__builtin_prefetch(&engine->body[entry_particle(entry[forecast->first])]);
 }
 
-/* Of the first `candidates` entries listed, keeps those that particle i may meet before its plan. */
-static size_t sift(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates,
-				   const struct plan *plan)
+/* Of the entries listed for one or two particles, keeps those that they may meet before their plans. */
+static void sift(struct touchstone_engine *engine, const uint32_t *particle, int particles, size_t *candidates,
+				 const struct plan *plan)
 {
 	struct shadows *shadows = &engine->shadows;
-	if (!shadows->shadow) return candidates;
-	struct sieve *sieve = &shadows->sieve;
-	sieve->images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
-	keep_plan(engine, plan);
-	candidates = shadows->machine->pass(sieve, shadows->shadow, i, candidate, candidates);
-	for (size_t k = 0; k < candidates; k++) __builtin_prefetch(&engine->body[entry_particle(candidate[k])]);
-	return candidates;
+	if (!shadows->shadow) return;
+	struct sieve_search search[2];
+	shadows->sieve.images = false;
+	for (int p = 0; p < particles; p++) {
+		shadows->sieve.images |= cells_at_border(&engine->cells, engine->itinerary[particle[p]].cell);
+		search[p] =
+			(struct sieve_search){particle[p], engine->candidate[p], candidates[p], latest_planned(engine, &plan[p])};
+	}
+	shadows->machine->pass(&shadows->sieve, shadows->shadow, search, particles);
+	for (int p = 0; p < particles; p++) {
+		candidates[p] = search[p].count;
+		/* Mostly one, and seldom more than two. A loop over so many as there are would have to be guessed. */
+		for (int k = 0; k < 2; k++) {
+			uint32_t other = entry_particle(engine->candidate[p][k]);
+			__builtin_prefetch(&engine->body[other]);
+			__builtin_prefetch(&engine->place[other]);
+			__builtin_prefetch(&engine->itinerary[other]);
+		}
+	}
 }

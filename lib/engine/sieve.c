@@ -11,58 +11,69 @@
 
 enum { LANES = 16, FIELDS = sizeof(struct shadow) / sizeof(float) };
 typedef float lanes __attribute__((vector_size(LANES * sizeof(float))));
-typedef int32_t flags __attribute__((vector_size(LANES * sizeof(int32_t))));
+typedef int32_t whole_lanes __attribute__((vector_size(LANES * sizeof(int32_t))));
+typedef uint32_t flags; /* a bit for each lane */
 
 #define INLINE static inline __attribute__((always_inline))
 
-static const float u = 0x1p-24f, tiny = 0x1p-120f;
+static const flags all_lanes = (1u << LANES) - 1;
+static const float u = 0x1p-24f, tiny = 0x1p-120f, huge = 0x1p120f;
 
 /* The steps for which machines differ. */
 struct steps {
 	void (*fetch)(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS]); /* sixteen, by field */
 	lanes (*root)(lanes x);
+	lanes (*near_root)(lanes x);    /* from tiny to huge: within 2^-11 of itself, */
+	lanes (*near_inverse)(lanes x); /* and so is this: many times quicker than root and quotient */
 	flags (*less)(lanes a, lanes b);
-	uint32_t (*bits)(flags x); /* one for each lane that is set */
+	lanes (*pick)(flags which, lanes yes, lanes no);
 	float (*least)(lanes x);
-	size_t (*pack)(uint32_t wanted, const uint32_t *from, uint32_t *to); /* what is wanted, close together: how many */
+	size_t (*pack)(flags wanted, const uint32_t *from, uint32_t *to); /* what is wanted, close together: how many */
 };
 
 INLINE lanes size_of(lanes x)
 {
-	return (lanes)((flags)x & 0x7fffffff);
+	return (lanes)((whole_lanes)x & 0x7fffffff);
 }
 
-INLINE lanes pick(flags mask, lanes yes, lanes no)
+/* The lanes behind the last of `count`. */
+INLINE flags behind(size_t count)
 {
-	return (lanes)(((flags)yes & mask) | ((flags)no & ~mask));
+	return count < LANES ? all_lanes & ~((1u << count) - 1) : 0;
 }
 
 /* How far the image an entry means is shifted along an axis. */
-INLINE lanes shift_of(flags entry, int axis, float box)
+INLINE lanes shift_of(whole_lanes entry, int axis, float box)
 {
-	flags code = entry >> (ENTRY_BITS + 2 * axis) & 3;
+	whole_lanes code = entry >> (ENTRY_BITS + 2 * axis) & 3;
 	return __builtin_convertvector((code & 1) - (code >> 1), lanes) * box;
 }
 
-/* The particle that searches. */
+/* The particle that searches, and the factors of its bounds that are the same for all others. */
 struct own {
 	struct shadow shadow;
-	float speed, h_fixed, h_time;
+	float speed, g_fixed, g_time, two_lengths, per_length, b_fixed, b_slope;
 };
 
 INLINE struct own own_of(const struct sieve *sieve, const struct shadow *shadow)
 {
-	const float *x = shadow->position, *v = shadow->velocity;
+	const float *x = shadow->position, *v = shadow->velocity, n = sieve->roundoff;
 	float size = fabsf(x[0]) + fabsf(x[1]) + fabsf(x[2]);
+	float length = shadow->radius > 0x1p-9f ? 2 * shadow->radius : 1;
 	return (struct own){.shadow = *shadow,
 						.speed = fabsf(v[0]) + fabsf(v[1]) + fabsf(v[2]),
-						.h_fixed = 8 * u * (sieve->boxes + size) + sieve->grain,
-						.h_time = 12 * u * sieve->span + sieve->drift};
+						.g_fixed = 8 * u * (sieve->boxes + size) + sieve->grain,
+						.g_time = 12 * u * sieve->span + sieve->drift,
+						.two_lengths = 2 * length,
+						.per_length = 6 / length,
+						.b_fixed = (10 * u + 8 * n) * length,
+						.b_slope = (30 * u + 24 * n) / length};
 }
 
-/* Sixteen particles as it sees them at the time of the search, in the terms of sieve.h: R, S, a, b and r.r. */
+/* Sixteen particles as it sees them at the time of the search, in the terms of sieve.h: S, a, b, r.r, and what their
+ * bounds come to: E_c, but for s^2, is c_fixed + r.r c_slope. */
 struct others {
-	lanes radius, r1, s, a, b, rr, h;
+	lanes radius, s, a, b, rr, c_fixed, c_slope, error_b;
 };
 
 INLINE struct others others_of(const struct sieve *sieve, const struct own *own, const struct shadow *shadow,
@@ -71,38 +82,33 @@ INLINE struct others others_of(const struct sieve *sieve, const struct own *own,
 	lanes field[FIELDS];
 	step->fetch(shadow, entry, field);
 	if (sieve->images) {
-		flags which;
+		whole_lanes which;
 		memcpy(&which, entry, sizeof which);
 		for (int axis = 0; axis < 3; axis++) field[axis] += shift_of(which, axis, sieve->box[axis]);
 	}
+	const float n = sieve->roundoff, age = sieve->age;
 	const lanes zero = {0};
 	lanes wait = sieve->now - field[3];
-	struct others others = {field[7], zero, zero + own->speed, zero, zero, zero, zero};
+	struct others others = {.radius = field[7], .s = zero + own->speed, .a = zero, .b = zero, .rr = zero};
 	for (int axis = 0; axis < 3; axis++) {
 		lanes theirs = field[4 + axis], v = own->shadow.velocity[axis] - theirs;
 		lanes r = own->shadow.position[axis] - (field[axis] + theirs * wait);
 		others.s += size_of(theirs);
-		others.r1 += size_of(r);
 		others.a += v * v;
 		others.b += r * v;
 		others.rr += r * r;
 	}
-	others.h = own->h_fixed + 4 * u * others.r1 + own->h_time * others.s;
+	lanes g = own->g_fixed + own->g_time * others.s;
+	others.c_fixed = g * (own->two_lengths + 4 * g) + (64 * n * age * age) * (others.s * others.s) + tiny;
+	others.c_slope = own->per_length * g + (144 * u + 192 * n);
+	others.error_b = others.s * (2 * g + own->b_fixed + (16 * n * age + sieve->late) * others.s + own->b_slope * others.rr) + tiny;
 	return others;
 }
 
 /* E_c, for no distance whose square is larger. */
 INLINE lanes error_of_c(const struct sieve *sieve, const struct others *o, lanes square)
 {
-	const float n = sieve->roundoff, age = sieve->age;
-	return 4 * o->h * (o->r1 + o->h) + (32 * u + 64 * n) * (o->r1 * o->r1 + square) +
-		   (64 * n * age * age) * (o->s * o->s) + tiny;
-}
-
-INLINE lanes error_of_b(const struct sieve *sieve, const struct others *o)
-{
-	const float n = sieve->roundoff;
-	return o->s * (2 * o->h + (12 * u + 16 * n) * o->r1 + (16 * n * sieve->age + sieve->late) * o->s) + tiny;
+	return o->c_fixed + (32 * u + 64 * sieve->roundoff) * square + o->c_slope * o->rr;
 }
 
 /* When pairs meet at a distance: not before `low`; and, where that is sure, not after `high`. */
@@ -111,15 +117,19 @@ struct meeting {
 	flags misses, sure;
 };
 
-INLINE struct meeting meeting_of(const struct others *o, lanes c, lanes q, lanes error_b, const struct steps *step)
+INLINE struct meeting meeting_of(const struct others *o, lanes c, lanes q, const struct steps *step)
 {
-	const lanes zero = {0};
+	static const float fine = 0x1p-9f; /* for a root and an inverse that are near */
+	const lanes zero = {0}, error_b = o->error_b;
 	lanes error_d = 2 * (o->s * o->s) * q + tiny, d = o->b * o->b - o->a * c, most = d + error_d, least = d - error_d;
 	struct meeting meeting;
 	meeting.misses = step->less(error_b, o->b) | step->less(most, zero);
-	meeting.low = (c - q) / (error_b - o->b + step->root(pick(step->less(zero, most), most, zero)));
-	meeting.sure = step->less(o->b + error_b, zero) & step->less(zero, least) & step->less(q, c);
-	meeting.high = (c + q) / (step->root(pick(meeting.sure, least, zero + 1)) - o->b - error_b);
+	lanes end = step->near_root(step->pick(step->less(zero + tiny, most), most, zero + tiny));
+	meeting.low = (c - q) * step->near_inverse(error_b - o->b + end) * (1 - fine);
+	meeting.sure = step->less(o->b + error_b, zero) & step->less(zero + tiny, least) & step->less(least, zero + huge) &
+				   step->less(q, c);
+	lanes begin = step->near_root(step->pick(meeting.sure, least, zero + 1));
+	meeting.high = (c + q) * step->near_inverse(begin - o->b - error_b) * (1 + fine);
 	return meeting;
 }
 
@@ -137,32 +147,61 @@ INLINE flags unheard(const struct sieve *sieve, const struct others *o, lanes sq
 	return step->less(error_of_c(sieve, o, farthest), o->rr - farthest);
 }
 
-static const uint32_t all_lanes = (1u << LANES) - 1;
+/* How far a search has come. */
+struct progress {
+	struct own own;
+	float latest;
+	size_t kept;
+};
 
-INLINE size_t pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, uint32_t *entry, size_t count,
-				   const struct steps step)
+/* The next sixteen of one search, or of two: step by step together, since each step waits for the one before it and not
+ * for those of the other. */
+INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, const struct sieve_search *search,
+					  struct progress *progress, int searches, size_t at, const struct steps *step)
 {
-	const struct own own = own_of(sieve, &shadow[i]);
-	const lanes zero = {0}, never = zero + INFINITY, number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-	float latest = sieve->latest;
-	size_t kept = 0;
-	for (size_t k = 0; k < count; k += LANES) {
-		struct others others = others_of(sieve, &own, shadow, entry + k, &step);
-		lanes contact = own.shadow.radius + others.radius, square = contact * contact;
-		lanes q = error_of_c(sieve, &others, square), error_b = error_of_b(sieve, &others);
-		struct meeting meeting = meeting_of(&others, others.rr - square, q, error_b, &step);
-		flags out = ~step.less(number, zero + (float)(count - k)) | meeting.misses;
-		if (sieve->heard > 0)
-			out &= ~step.less(number, zero + (float)(count - k)) | unheard(sieve, &others, square, &step);
-		if (step.bits(out) == all_lanes) continue;
-		if (sieve->by_order) {
-			latest = latest_of(sieve, latest, pick(meeting.sure & ~out, meeting.high, never), &step);
-			flags late = step.less(zero + latest, meeting.low);
-			out |= sieve->heard > 0 ? late & unheard(sieve, &others, square, &step) : late;
-		}
-		kept += step.pack(~step.bits(out) & all_lanes, entry + k, entry + kept);
+	const lanes zero = {0}, never = zero + INFINITY;
+	struct others others[2];
+	struct meeting meeting[2];
+	lanes square[2];
+	flags none[2], out[2];
+	for (int k = 0; k < searches; k++)
+		others[k] = others_of(sieve, &progress[k].own, shadow, search[k].entry + at, step);
+	for (int k = 0; k < searches; k++) {
+		lanes contact = progress[k].own.shadow.radius + others[k].radius;
+		square[k] = contact * contact;
+		meeting[k] = meeting_of(&others[k], others[k].rr - square[k], error_of_c(sieve, &others[k], square[k]), step);
 	}
-	return kept;
+	for (int k = 0; k < searches; k++) {
+		none[k] = behind(search[k].count - at);
+		out[k] = none[k] | meeting[k].misses;
+		if (sieve->heard > 0) out[k] &= none[k] | unheard(sieve, &others[k], square[k], step);
+	}
+	if ((out[0] & out[searches - 1]) == all_lanes) return;
+	for (int k = 0; k < searches && sieve->by_order; k++) {
+		progress[k].latest =
+			latest_of(sieve, progress[k].latest, step->pick(meeting[k].sure & ~out[k], meeting[k].high, never), step);
+		flags late = step->less(zero + progress[k].latest, meeting[k].low);
+		out[k] |= sieve->heard > 0 ? late & unheard(sieve, &others[k], square[k], step) : late;
+	}
+	for (int k = 0; k < searches; k++)
+		progress[k].kept += step->pack(~out[k] & all_lanes, search[k].entry + at, search[k].entry + progress[k].kept);
+}
+
+INLINE void pass(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search, int searches,
+				 const struct steps *step)
+{
+	struct progress progress[2];
+	size_t at = 0;
+	for (int k = 0; k < searches; k++)
+		progress[k] = (struct progress){.own = own_of(sieve, &shadow[search[k].self]), .latest = search[k].latest};
+	if (searches == 2)
+		for (; at < search[0].count && at < search[1].count; at += LANES)
+			sift_next(sieve, shadow, search, progress, 2, at, step);
+	for (int k = 0; k < searches; k++) {
+		for (size_t rest = at; rest < search[k].count; rest += LANES)
+			sift_next(sieve, shadow, &search[k], &progress[k], 1, rest, step);
+		search[k].count = progress[k].kept;
+	}
 }
 
 /* No event of a pair comes before: that of meeting where it surely meets, that of parting where it surely does not, and
@@ -173,27 +212,27 @@ INLINE lanes bound_of(const struct sieve *sieve, const struct others *o, lanes i
 	const lanes zero = {0};
 	const float fine = 0x1p-18f + 16 * sieve->roundoff;
 	flags parts = step->less(zero, outer);
-	lanes farther = pick(parts, outer, inner);
-	lanes q = error_of_c(sieve, o, farther * farther), error_b = error_of_b(sieve, o), b = o->b + error_b;
+	lanes farther = step->pick(parts, outer, inner);
+	lanes q = error_of_c(sieve, o, farther * farther), error_b = o->error_b, b = o->b + error_b;
 	lanes error_a = (16 * u + 8 * sieve->roundoff) * (o->s * o->s) + tiny, a = o->a + error_a;
 	lanes c_meets = o->rr - inner * inner, c = o->rr - outer * outer + q;
 	lanes error_d = 2 * (o->s * o->s) * q + tiny, d = o->b * o->b - o->a * c_meets;
 	flags misses = step->less(error_b, o->b) | step->less(d + error_d, zero);
 	flags meets = step->less(b, zero) & step->less(error_d, d);
-	lanes square = pick(meets, d + error_d, b * b * (1 - 32 * u) - a * c);
-	lanes end = step->root(pick(step->less(zero, square), square, zero));
+	lanes square = step->pick(meets, d + error_d, b * b * (1 - 32 * u) - a * c);
+	lanes end = step->root(step->pick(step->less(zero, square), square, zero));
 	flags opens = step->less(zero, b);
-	lanes over = pick(meets, c_meets - q, pick(opens, -c, end - b));
-	lanes under = pick(meets, error_b - o->b + end, pick(opens, b + end, a));
+	lanes over = step->pick(meets, c_meets - q, step->pick(opens, -c, end - b));
+	lanes under = step->pick(meets, error_b - o->b + end, step->pick(opens, b + end, a));
 	lanes low = over / under * (1 - fine);
-	return pick(meets | (misses & parts), low, pick(misses, zero + INFINITY, zero));
+	return step->pick(meets | (misses & parts), low, step->pick(misses, zero + INFINITY, zero));
 }
 
 INLINE size_t hold(const struct sieve *sieve, const struct shadow *shadow, uint32_t i, const struct held *held,
 				   size_t count, float *soonest, const struct steps step)
 {
 	const struct own own = own_of(sieve, &shadow[i]);
-	const lanes zero = {0}, number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+	const lanes zero = {0};
 	float least = INFINITY;
 	size_t first = 0;
 	for (size_t k = 0; k < count; k += LANES) {
@@ -202,12 +241,12 @@ INLINE size_t hold(const struct sieve *sieve, const struct shadow *shadow, uint3
 		memcpy(&inner, held->inner + k, sizeof inner);
 		memcpy(&outer, held->outer + k, sizeof outer);
 		lanes low = bound_of(sieve, &others, inner, outer, &step);
-		low = pick(step.less(number, zero + (float)(count - k)), low, zero + INFINITY);
+		low = step.pick(behind(count - k), zero + INFINITY, low);
 		memcpy(soonest + k, &low, sizeof low);
 		float least_here = step.least(low);
 		if (!(least_here < least)) continue;
 		least = least_here;
-		first = k + (size_t)__builtin_ctz(~step.bits(step.less(zero + least, low)));
+		first = k + (size_t)__builtin_ctz(~step.less(zero + least, low));
 	}
 	return first;
 }
@@ -227,18 +266,22 @@ INLINE lanes root_any(lanes x)
 	return x;
 }
 
+INLINE lanes inverse_any(lanes x)
+{
+	return 1 / x;
+}
+
 INLINE flags less_any(lanes a, lanes b)
 {
-	flags less;
-	for (int lane = 0; lane < LANES; lane++) less[lane] = -(a[lane] < b[lane]);
+	flags less = 0;
+	for (int lane = 0; lane < LANES; lane++) less |= (flags)(a[lane] < b[lane]) << lane;
 	return less;
 }
 
-INLINE uint32_t bits_any(flags x)
+INLINE lanes pick_any(flags which, lanes yes, lanes no)
 {
-	uint32_t bits = 0;
-	for (int lane = 0; lane < LANES; lane++) bits |= (uint32_t)(x[lane] & 1) << lane;
-	return bits;
+	for (int lane = 0; lane < LANES; lane++) no[lane] = which >> lane & 1 ? yes[lane] : no[lane];
+	return no;
 }
 
 INLINE float least_any(lanes x)
@@ -248,25 +291,25 @@ INLINE float least_any(lanes x)
 	return least;
 }
 
-INLINE size_t pack_any(uint32_t wanted, const uint32_t *from, uint32_t *to)
+INLINE size_t pack_any(flags wanted, const uint32_t *from, uint32_t *to)
 {
 	size_t kept = 0;
 	for (; wanted; wanted &= wanted - 1) to[kept++] = from[__builtin_ctz(wanted)];
 	return kept;
 }
 
-static size_t pass_any(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-					   size_t count)
+static const struct steps steps_any = {fetch_any, root_any, root_any,  inverse_any,
+									   less_any,  pick_any, least_any, pack_any};
+
+static void pass_any(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search, int searches)
 {
-	return pass(sieve, shadow, self, entry, count,
-				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
+	pass(sieve, shadow, search, searches, &steps_any);
 }
 
 static size_t hold_any(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, const struct held *held,
 					   size_t count, float *soonest)
 {
-	return hold(sieve, shadow, self, held, count, soonest,
-				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
+	return hold(sieve, shadow, self, held, count, soonest, steps_any);
 }
 
 static void cast_any(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy, double vz,
@@ -283,90 +326,7 @@ static void cast_any(struct shadow *shadow, double x, double y, double z, double
 #endif
 
 #ifdef __x86_64__
-#define AVX2 __attribute__((target("avx2,fma,bmi,bmi2")))
-#define AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,fma,popcnt,bmi,bmi2")))
-
-AVX2 static size_t pass_avx2(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-							 size_t count)
-{
-	return pass(sieve, shadow, self, entry, count,
-				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
-}
-
-AVX2 static size_t hold_avx2(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
-							 const struct held *held, size_t count, float *soonest)
-{
-	return hold(sieve, shadow, self, held, count, soonest,
-				(struct steps){fetch_any, root_any, less_any, bits_any, least_any, pack_any});
-}
-
-AVX2 static void cast_avx2(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
-						   double vz, double radius)
-{
-	__m256 row =
-		_mm256_setr_ps((float)x, (float)y, (float)z, (float)time, (float)vx, (float)vy, (float)vz, (float)radius);
-	_mm256_store_ps((float *)shadow, row);
-}
-
-/* A transposition of two squares of eight at once: the registers hold rows 0 to 3 and 8 to 11 in their lower halves. */
-AVX512 static inline void fetch_512(const struct shadow *shadow, const uint32_t *entry, lanes field[FIELDS])
-{
-	__m512 row[8], pair[8], quad[8];
-	for (int k = 0; k < 8; k++) {
-		int lower = k + (k & 4), upper = lower + 4;
-		__m256 first = _mm256_load_ps((const float *)&shadow[entry_particle(entry[lower])]);
-		__m256 second = _mm256_load_ps((const float *)&shadow[entry_particle(entry[upper])]);
-		row[k] = _mm512_insertf32x8(_mm512_castps256_ps512(first), second, 1);
-	}
-	for (int k = 0; k < 8; k += 2) {
-		pair[k] = _mm512_unpacklo_ps(row[k], row[k + 1]);
-		pair[k + 1] = _mm512_unpackhi_ps(row[k], row[k + 1]);
-	}
-	for (int k = 0; k < 8; k += 4)
-		for (int half = 0; half < 2; half++) {
-			__m512d first = _mm512_castps_pd(pair[k + half]), second = _mm512_castps_pd(pair[k + half + 2]);
-			quad[k + 2 * half] = _mm512_castpd_ps(_mm512_unpacklo_pd(first, second));
-			quad[k + 2 * half + 1] = _mm512_castpd_ps(_mm512_unpackhi_pd(first, second));
-		}
-	for (int f = 0; f < 4; f++) {
-		field[f] = (lanes)_mm512_shuffle_f32x4(quad[f], quad[f + 4], 0x88);
-		field[f + 4] = (lanes)_mm512_shuffle_f32x4(quad[f], quad[f + 4], 0xdd);
-	}
-}
-
-AVX512 static inline lanes root_512(lanes x)
-{
-	return (lanes)_mm512_sqrt_ps((__m512)x);
-}
-
-AVX512 static inline flags less_512(lanes a, lanes b)
-{
-	return (flags)_mm512_movm_epi32(_mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ));
-}
-
-AVX512 static inline uint32_t bits_512(flags x)
-{
-	return _mm512_movepi32_mask((__m512i)x);
-}
-
-AVX512 static inline float least_512(lanes x)
-{
-	return _mm512_reduce_min_ps((__m512)x);
-}
-
-AVX512 static size_t pass_512(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-							  size_t count)
-{
-	return pass(sieve, shadow, self, entry, count,
-				(struct steps){fetch_512, root_512, less_512, bits_512, least_512, pack_any});
-}
-
-AVX512 static size_t hold_512(const struct sieve *sieve, const struct shadow *shadow, uint32_t self,
-							  const struct held *held, size_t count, float *soonest)
-{
-	return hold(sieve, shadow, self, held, count, soonest,
-				(struct steps){fetch_512, root_512, less_512, bits_512, least_512, pack_any});
-}
+#include "engine/sieve_avx.inl"
 #endif
 
 #include "engine/sieve_check.inl"

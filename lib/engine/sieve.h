@@ -7,11 +7,11 @@
  * 1-norms (they are cheap and never less than the Euclidean ones):
  *
  *     S    sum of both speeds                    R    distance
- *     h    error of a component of r: u (8 boxes + 8 |x_i| + 4 R + 12 S span) + grain + S drift. Each position, speed
- *          and time is rounded once (u of itself), the flight to now twice more, the difference and the image's shift
- *          twice; |x_j| is at most |x_i| + R + S span and the shift; a time is at most `span`; `grain` is what the
- *          working arithmetic's own difference of two places errs by, and `drift` its flights since the last events, as
- *          a time
+ *     h    error of a component of r: g + 4 u R with g = u (8 boxes + 8 |x_i| + 12 S span) + grain + S drift. Each
+ *          position, speed and time is rounded once (u of itself), the flight to now twice more, the difference and the
+ *          image's shift twice; |x_j| is at most |x_i| + R + S span and the shift; a time is at most `span`; `grain` is
+ *          what the working arithmetic's own difference of two places errs by, and `drift` its flights since the last
+ *          events, as a time
  *     E_c  error of c = r.r - s^2:  q = 4 h (R + h) + (32 u + 64 n) (R^2 + s^2) + 64 n (S age)^2
  *     E_b  error of b = r.v:        S (2 h + (12 u + 16 n) R + 16 n S age + S late)
  *     E_D  error of b^2 - a c:      2 S^2 q
@@ -22,6 +22,12 @@
  * now may by rounding be one of now, and two meetings may change places. First-order sums of these give half of the
  * figures above or less; the other half pays for second orders, for the rounding of the bounds and for subnormal
  * numbers. Whether products and sums are fused does not matter.
+ *
+ * What is reckoned with is linear in r.r, which is known last: R^2 is at most 3 r.r, and 2 R at most L + R^2 / L for
+ * any length L, here the particle's own diameter (1 where it has none to speak of), so that
+ *
+ *     E_c  <=  g (2 L + 4 g) + (32 u + 64 n) s^2 + 64 n (S age)^2  +  r.r (6 g / L + 144 u + 192 n)
+ *     E_b  <=  S (2 g + (10 u + 8 n) L + 16 n S age + S late)      +  r.r S (30 u + 24 n) / L
  *
  * A pair is left out when it surely parts (b > E_b: what it may have met is in the past), surely misses (D < -E_D), or
  * surely meets later than some other pair surely meets. A comparison with a NaN leaves nothing out. */
@@ -47,17 +53,23 @@ struct sieve {
 	float grain;    /* error of its differences of places */
 	float drift;    /* error of its flights, as a time */
 	float late;     /* error of its event times */
-	float latest;   /* meetings surely later are of no interest; INFINITY for none */
 	float heard;    /* pairs no farther apart than so many times their contact distance pass in any case; 0: none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
 	bool images;    /* whether any entry may be an image */
 };
 
-/* Goes through `count` entries (engine/cells.h) that particle `self`, whose own shadow is as of now, may meet, and
- * leaves in `entry` those that may be met first. Returns how many. Behind the last entry stand 16 more that name
- * particles which exist. */
-typedef size_t sieve_pass(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-						  size_t count);
+/* One search: of the entries (engine/cells.h) that a particle may meet, those that it may meet first. */
+struct sieve_search {
+	uint32_t self;   /* its own shadow is as of now */
+	uint32_t *entry; /* behind the last stand 16 more that name particles which exist */
+	size_t count;
+	float latest; /* meetings surely later are of no interest; INFINITY for none */
+};
+
+/* Goes through one or two searches of one time, and leaves in each the entries that may be met first, and their count.
+ */
+typedef void sieve_pass(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
+						int searches);
 
 /* Pairs that are within one distance and, it may be, beyond another: they part at the one, or meet at the other. The
  * arrays hold 16 more at their ends: entries that name particles which exist, and any distances. */

@@ -16,17 +16,21 @@ INLINE lanes root_128(lanes x)
 
 INLINE flags less_128(lanes a, lanes b)
 {
-	flags less;
+	flags less = 0;
 	for (int k = 0; k < LANES / 4; k++)
-		wasm_v128_store((int32_t *)&less + 4 * k, wasm_f32x4_lt(quarter(&a, k), quarter(&b, k)));
+		less |= wasm_i32x4_bitmask(wasm_f32x4_lt(quarter(&a, k), quarter(&b, k))) << 4 * k;
 	return less;
 }
 
-INLINE uint32_t bits_128(flags x)
+INLINE lanes pick_128(flags which, lanes yes, lanes no)
 {
-	uint32_t bits = 0;
-	for (int k = 0; k < LANES / 4; k++) bits |= wasm_i32x4_bitmask(quarter(&x, k)) << 4 * k;
-	return bits;
+	const v128_t bit = wasm_i32x4_const(1, 2, 4, 8);
+	lanes picked;
+	for (int k = 0; k < LANES / 4; k++) {
+		v128_t mask = wasm_i32x4_eq(wasm_v128_and(wasm_i32x4_splat((int)(which >> 4 * k)), bit), bit);
+		wasm_v128_store((float *)&picked + 4 * k, wasm_v128_bitselect(quarter(&yes, k), quarter(&no, k), mask));
+	}
+	return picked;
 }
 
 INLINE float least_128(lanes x)
@@ -58,16 +62,19 @@ INLINE void fetch_128(const struct shadow *shadow, const uint32_t *entry, lanes 
 		}
 }
 
-static size_t pass_128(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, uint32_t *entry,
-					   size_t count)
+static const struct steps steps_128 = {fetch_128, root_128, root_128,  inverse_any,
+									   less_128,  pick_128, least_128, pack_any};
+
+static void pass_128(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search, int searches)
 {
-	return pass(sieve, shadow, self, entry, count,
-				(struct steps){fetch_128, root_128, less_128, bits_128, least_128, pack_any});
+	if (searches == 1)
+		pass(sieve, shadow, search, 1, &steps_128);
+	else
+		pass(sieve, shadow, search, 2, &steps_128);
 }
 
 static size_t hold_128(const struct sieve *sieve, const struct shadow *shadow, uint32_t self, const struct held *held,
 					   size_t count, float *soonest)
 {
-	return hold(sieve, shadow, self, held, count, soonest,
-				(struct steps){fetch_128, root_128, less_128, bits_128, least_128, pack_any});
+	return hold(sieve, shadow, self, held, count, soonest, steps_128);
 }

@@ -125,6 +125,7 @@ struct neighbours {
 struct touchstone_engine {
 	const struct unit *unit; /* unit and bits come first: whoever calls does not know which unit it is */
 	int bits;
+	num two_units; /* in the last place of 1, at most */
 	const struct method *method;
 
 	/* the particles, in an order that keeps neighbours near each other in memory */

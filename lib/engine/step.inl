@@ -26,17 +26,16 @@ static void consider_partner(struct touchstone_engine *engine, uint32_t i, struc
 static void consider_forecast(struct touchstone_engine *engine, uint32_t i, const struct forecast *forecast,
 							  struct plan *plan)
 {
-	const float *latest = &engine->shadows.sieve.latest;
-	keep_plan(engine, plan);
+	float latest = latest_planned(engine, plan);
 	for (uint32_t k = 0, next = forecast->first; k <= forecast->count; next = k++) {
 		bool again = k > 0 && next == forecast->first;
-		if (again || forecast->soonest[next] > *latest || forecast->soonest[next] == INFINITY) continue;
+		if (again || forecast->soonest[next] > latest || forecast->soonest[next] == INFINITY) continue;
 		struct pair_state pair = {forecast->pair[next].entry, forecast->pair[next].state - forecast->more};
 		if (pair.state)
 			consider_partner(engine, i, pair, plan);
 		else
 			consider_pairs(engine, i, &pair.entry, 1, plan);
-		keep_plan(engine, plan);
+		latest = latest_planned(engine, plan);
 	}
 }
 

@@ -74,8 +74,34 @@ static struct sieve sieve_at(double box, double now)
 						  .age = (float)now,
 						  .roundoff = 0x1p-53f,
 						  .drift = 0x1p-40f,
-						  .late = 0x1p-40f,
-						  .latest = INFINITY};
+						  .late = 0x1p-40f};
+}
+
+/* A search beside one that begins later in its list leaves the same as alone, and so does the other. */
+static void two_at_once(const struct sieve_machine *machine, const struct sieve *sieve, const struct shadow *shadow,
+						const uint32_t *entry, size_t count, const struct sieve_search *alone)
+{
+	uint32_t first[ROOM], second[ROOM], part[ROOM];
+	size_t skipped = (size_t)between(0, (double)count + 1);
+	if (skipped > count) skipped = count;
+	memcpy(first, entry, sizeof first);
+	memset(second, 0, sizeof second);
+	memcpy(second, entry + skipped, (ROOM - skipped) * sizeof *second);
+	memcpy(part, second, sizeof part);
+	struct sieve_search one = {0, part, count - skipped, alone->latest};
+	machine->pass(sieve, shadow, &one, 1);
+	struct sieve_search both[2] = {{0, first, count, alone->latest}, {0, second, count - skipped, alone->latest}};
+	bool other_way = between(0, 1) < 0.5;
+	if (other_way) {
+		struct sieve_search whole = both[0];
+		both[0] = both[1], both[1] = whole;
+	}
+	machine->pass(sieve, shadow, both, 2);
+	const struct sieve_search *whole = &both[other_way], *rest = &both[!other_way];
+	assert_int_equal(whole->count, alone->count);
+	assert_memory_equal(whole->entry, alone->entry, alone->count * sizeof *alone->entry);
+	assert_int_equal(rest->count, one.count);
+	assert_memory_equal(rest->entry, part, one.count * sizeof *part);
 }
 
 /* One crowd of particles around number 0, and what each machine leaves of it; how many in all, and how many kept. */
@@ -119,13 +145,16 @@ static void one_crowd(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_al
 	sieve.by_order = between(0, 1) < 0.8;
 	sieve.images = images;
 	double limit = between(0, 1) < 0.3 ? between(0, 2) / speed : INFINITY;
-	if (sieve.by_order) sieve.latest = (float)(limit * 1.001);
+	float latest = sieve.by_order ? (float)(limit * 1.001) : INFINITY;
 	const struct sieve_machine *machine;
 	for (size_t m = 0; (machine = sieve_machine(m)); m++) {
 		for (uint32_t i = 0; i <= count; i++) cast(machine, &shadow[i], &particle[i]);
 		memcpy(kept, entry, sizeof kept);
-		size_t left = machine->pass(&sieve, shadow, 0, kept, count);
+		struct sieve_search search = {0, kept, count, latest};
+		machine->pass(&sieve, shadow, &search, 1);
+		size_t left = search.count;
 		assert_true(left <= count);
+		two_at_once(machine, &sieve, shadow, entry, count, &search);
 		*all += count, *kept_in_all += left;
 		size_t at = 0;
 		for (uint32_t k = 0; k < count; k++) {
@@ -324,14 +353,16 @@ static void keeps_what_is_doubtful(void **state)
 		{{{0, 0, 0}, {1e-30, 0, 0}, 0, 0.5}, {{3, 0.3, 0}, {-1e-30, 0, 0}, 0, 0.5}}}; /* and below */
 	struct shadow *shadow = aligned_alloc(64, ROOM * sizeof *shadow);
 	assert_non_null(shadow);
-	struct sieve sieve = {.age = 1, .roundoff = 0x1p-53f, .latest = INFINITY, .by_order = true};
+	struct sieve sieve = {.age = 1, .roundoff = 0x1p-53f, .by_order = true};
 	const struct sieve_machine *machine;
 	for (size_t m = 0; (machine = sieve_machine(m)); m++)
 		for (size_t p = 0; p < sizeof pair / sizeof *pair; p++) {
 			uint32_t entry[ROOM] = {1};
 			cast(machine, &shadow[0], &pair[p][0]);
 			cast(machine, &shadow[1], &pair[p][1]);
-			assert_int_equal(machine->pass(&sieve, shadow, 0, entry, 1), 1);
+			struct sieve_search search = {0, entry, 1, INFINITY};
+			machine->pass(&sieve, shadow, &search, 1);
+			assert_int_equal(search.count, 1);
 		}
 	free(shadow);
 }
