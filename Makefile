@@ -6,7 +6,8 @@
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
 #   make soak              an hour of looking for what is rare, SOAK=600 for ten minutes: kills of runs, campaigns and
 #                          audits, the correctly rounded finder against the exact oracle, make fuzz, make valgrind
-#   make valgrind          test programs under valgrind's memcheck, MEMCHECK=900 seconds in all, MEMCHECK_EACH=60 at most
+#   make valgrind          test programs, and what they start, under valgrind's memcheck: an hour or two of two cores;
+#                          MEMCHECK=900 for so many seconds in all, MEMCHECK_EACH=60 at most
 #   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++;
 #                          verify/fuzz/coverage does the same, and ends with 77 where the fuzzer is missing
 #   make CC=clang          another compiler               make BUILD=build/other   another place
@@ -39,7 +40,7 @@ TESTS    := $(patsubst %.c,$(BUILD)/%,$(shell find lib verify reports -path '*/t
 # Tests that take more than two seconds under sanitizers, where `make test` leaves them out. Elsewhere they come first,
 # so that no core waits for another in the end.
 SLOW     := $(patsubst %,%_test,audit campaign_command campaign_kill chart engine family fuzz grade_command num_short oracle \
-	oracle_rule physics plugin policy resume step_engine step_gas step_oracle time_place)
+	oracle_rule physics plugin policy resume slack step_engine step_gas step_oracle time_place)
 named     = $(foreach test,$(TESTS),$(if $(filter $(1),$(notdir $(test))),$(test)))
 CHECKED   = $(filter-out $(call named,$(OMIT)),$(call named,$(SLOW)) $(filter-out $(call named,$(SLOW)),$(TESTS)))
 
@@ -95,18 +96,18 @@ soak: $(BUILD)/touchstone $(SOAKERS)
 	share $$(($(SOAK) / 4)) $(BUILD)/verify/soak/rounded_soak 1e15; \
 	BUILD='$(BUILD)' MAKE='$(MAKE)' verify/fuzz/coverage libfuzzer $$(($(SOAK) / 4 / $(FUZZED))) || \
 		[ $$? -eq 77 ] || status=1; \
-	$(MAKE) --no-print-directory valgrind MEMCHECK=$$(($(SOAK) / 4)) || status=1; \
+	$(MAKE) --no-print-directory valgrind MEMCHECK=$$(($(SOAK) / 4)) AT_RANDOM=1 || status=1; \
 	exit $$status
 
-# Memory errors that sanitizers do not see, such as numbers that nobody has set. In random order; what there is no time for
-# is said.
-MEMCHECK := 900
-MEMCHECK_EACH := 60
+# Memory errors that sanitizers do not see, such as numbers that nobody has set. The slow tests first, or AT_RANDOM=1 where
+# there may be no time for all; which those are is said.
+MEMCHECK := 9000
+MEMCHECK_EACH := 3600
 valgrind:
 	@.ci/setup
 	@.ci/setup bench
 	@$(MAKE) --no-print-directory -j$(CORES) prepared
-	@verify/test/memcheck $(MEMCHECK) $(MEMCHECK_EACH) $$(shuf -e $(TESTS))
+	@verify/test/memcheck $(MEMCHECK) $(MEMCHECK_EACH) $(if $(AT_RANDOM),$$(shuf -e $(CHECKED)),$(CHECKED))
 
 # Coverage-guided fuzzing of finders and readers, so many seconds each: by libFuzzer, or with FUZZER=afl by AFL++. Called
 # alone, the script ends with 77 where the fuzzer is missing; make ends with 2 then.

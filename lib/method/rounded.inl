@@ -3,17 +3,31 @@
  *
  * Source: Touchstone's own. In binary64 a fast path (method/rounded_fast.inl) answers in twice the precision with a
  * proven bound and a rounding test (as Ziv, "Fast evaluation of elementary mathematical functions with correctly
- * rounded last bit", ACM Transactions on Mathematical Software 17(3), 1991). What it leaves, and every other
- * arithmetic, goes the exact way: signs by integers, the time enclosed with more and more bits until both ends round
- * alike. This ends: an irrational time is never half way between two numbers, and a binary fraction is at last enclosed
- * in itself.
+ * rounded last bit", ACM Transactions on Mathematical Software 17(3), 1991); in short arithmetics that answer is
+ * rounded once more, unless it lies half way between two numbers. What it leaves, and every other arithmetic, goes the
+ * exact way: signs by integers, the time enclosed with more and more bits until both ends round alike. This ends: an
+ * irrational time is never half way between two numbers, and a binary fraction is at last enclosed in itself.
  *
  * Bound: half a unit in the last place; no event missed, none invented. A question with a number that is not finite is
  * answered by NaN. Attained wherever a time lies half way between two numbers:
  *     half-space 0x1p-1074 -2 */
 
-#ifdef NUM_HAS_BATCHES
+#if defined NUM_HAS_BATCHES || defined NUM_ROUNDS_DOUBLES
+#define ROUNDED_IS_FAST
 #include "method/rounded_fast.inl"
+
+/* What the fast path's answer, the nearest double, says of the nearest number; NaN: nothing. */
+static inline __attribute__((always_inline)) num rounded_fast(double time, struct quadratic *f)
+{
+#ifdef NUM_ROUNDS_DOUBLES
+	if (num_half_way(time)) return NAN;
+	*f = (struct quadratic){from_double(f->a), from_double(f->b), from_double(f->c), from_double(f->discriminant)};
+	return from_double(time);
+#else
+	(void)f;
+	return time;
+#endif
+}
 #endif
 
 /* number 2^-halvings, turned back if the quadratic was turned, in the working arithmetic. */
@@ -70,8 +84,8 @@ static num rounded_balls_exactly(enum touchstone_shape shape, const struct balls
 
 static inline __attribute__((always_inline)) num rounded_ball_ball(const struct balls *balls, struct quadratic *f)
 {
-#ifdef NUM_HAS_BATCHES
-	double fast = fast_balls(false, balls, f);
+#ifdef ROUNDED_IS_FAST
+	num fast = rounded_fast(fast_balls(false, balls, f), f);
 	if (!isnan(fast)) return fast;
 #endif
 	return rounded_balls_exactly(TOUCHSTONE_BALL_BALL, balls, f);
@@ -79,8 +93,8 @@ static inline __attribute__((always_inline)) num rounded_ball_ball(const struct 
 
 static inline __attribute__((always_inline)) num rounded_ball_leave(const struct balls *balls, struct quadratic *f)
 {
-#ifdef NUM_HAS_BATCHES
-	double fast = fast_balls(true, balls, f);
+#ifdef ROUNDED_IS_FAST
+	num fast = rounded_fast(fast_balls(true, balls, f), f);
 	if (!isnan(fast)) return fast;
 #endif
 	return rounded_balls_exactly(TOUCHSTONE_BALL_LEAVE, balls, f);
@@ -88,8 +102,8 @@ static inline __attribute__((always_inline)) num rounded_ball_leave(const struct
 
 static inline __attribute__((always_inline)) num rounded_ball_plane(const struct flight *flight, struct quadratic *f)
 {
-#ifdef NUM_HAS_BATCHES
-	double fast = fast_plane(flight, f);
+#ifdef ROUNDED_IS_FAST
+	num fast = rounded_fast(fast_plane(flight, f), f);
 	if (!isnan(fast)) return fast;
 #endif
 	const num numbers[] = {flight->distance, flight->speed, flight->acceleration, flight->contact};

@@ -18,6 +18,7 @@
 _Static_assert(FLT_EVAL_METHOD == 0, "double operations must round to double, not to something wider");
 
 typedef double num;
+#define NUM_ROUNDS_DOUBLES
 
 static const char num_name[] = "short";
 enum { num_largest_exponent = DBL_MAX_EXP };
@@ -57,6 +58,15 @@ static inline num num_rounded(double value)
 	word &= num_rounding.kept;
 	memcpy(&value, &word, sizeof value);
 	return value;
+}
+
+/* Whether a double lies half way between two numbers. If the double nearest to something does not, its rounding is that
+ * of the thing itself. */
+static inline bool num_half_way(double value)
+{
+	uint64_t word;
+	memcpy(&word, &value, sizeof word);
+	return (word & (2 * num_rounding.below_half + 1)) == num_rounding.below_half + 1;
 }
 
 /* Rounded to nearest, ties to even. */

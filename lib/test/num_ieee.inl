@@ -6,6 +6,7 @@ static const double allowed_error[] = {0, 0, 0, 0, 0};
 enum { reference_bits = 0 };
 
 #include "num_test.inl"
+#include "test/long_double.h"
 
 static void edge_body(struct bench *bench)
 {
@@ -42,6 +43,7 @@ static void operations_round_at_the_edges_of_the_range(void **state)
 
 int main(void)
 {
+	if (!arithmetic_is_whole(num_name)) return 0;
 	const struct CMUnitTest tests[] = {cmocka_unit_test(operations_round_at_the_edges_of_the_range)};
 	return run_num_tests() + cmocka_run_group_tests_name(num_name, tests, seed_random, clear_random);
 }

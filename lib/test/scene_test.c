@@ -31,9 +31,9 @@ static double largest_momentum(const struct touchstone_scene *scene)
 {
 	double largest = 0;
 	for (int axis = 0; axis < 3; axis++) {
-		long double sum = 0;
+		__float128 sum = 0; /* long double has no more bits than double where it is emulated */
 		for (size_t p = 0; p < scene->particle_count; p++)
-			sum += (long double)scene->species[scene->particles[p].species].mass * scene->particles[p].velocity[axis];
+			sum += (__float128)scene->species[scene->particles[p].species].mass * scene->particles[p].velocity[axis];
 		largest = fmax(largest, fabs((double)sum));
 	}
 	return largest;

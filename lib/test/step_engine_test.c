@@ -2,6 +2,8 @@
  * wherever positions can say it, and what is conserved. */
 #include "step_scenes.h"
 
+#include "test/long_double.h"
+
 static bool brief; /* under sanitizers, where everything takes ten times longer */
 
 static const struct touchstone_potential *potential_of(const struct touchstone_scene *scene, uint32_t a, uint32_t b)
@@ -147,7 +149,8 @@ static void equal_precision_means_equal_events(void **state)
 		recipe.potentials = potentials[p];
 		recipe.potential_count = 1;
 		for (int e = 0; e < 6; e++)
-			assert_same_run(&recipe, brief ? 200 : e < 4 ? 2000 : 600, equal[e][0], equal[e][1]);
+			if (arithmetic_is_whole(equal[e][0]))
+				assert_same_run(&recipe, brief ? 200 : e < 4 ? 2000 : 600, equal[e][0], equal[e][1]);
 	}
 }
 
