@@ -240,59 +240,6 @@ static struct entry entry_of(const void *context, struct note note)
 	return (struct entry){itinerary->time, note, itinerary->partner, UINT32_C(1) + itinerary->meets};
 }
 
-/* What an event changes and looks at, of one of its particles. */
-static void particle_ahead(const struct touchstone_engine *engine, uint32_t i)
-{
-	ahead(&engine->body[i]);
-	ahead(&engine->place[i]);
-	if (engine->shadows.shadow) ahead(&engine->shadows.shadow[i]);
-}
-
-/* The cell where a particle will be looked for when what comes next for it has come. */
-static void next_cell(const struct itinerary *itinerary, uint16_t cell[3])
-{
-	memcpy(cell, itinerary->cell, sizeof itinerary->cell);
-	if (itinerary->next == NEXT_IS_PHYSICAL || itinerary->next == LEAVES_ANCHOR) return;
-	int axis = (itinerary->next - 1) / 2;
-	cell[axis] = (uint16_t)(cell[axis] + 2 * ((itinerary->next - 1) % 2) - 1);
-}
-
-/* The partner in what comes next, or the particle itself. */
-static uint32_t next_partner(const struct touchstone_engine *engine, uint32_t i)
-{
-	const struct itinerary *itinerary = &engine->itinerary[i];
-	bool meets = itinerary->next == NEXT_IS_PHYSICAL && with_particle(itinerary->meets);
-	return meets ? entry_particle(itinerary->partner) : i;
-}
-
-static void note_at_hand(const void *context, struct note note)
-{
-	const struct touchstone_engine *engine = context;
-	if (engine->agenda.wide)
-		cells_ahead(&engine->cells, engine->itinerary[next_partner(engine, note.particle)].cell);
-	else
-		particle_ahead(engine, note.particle);
-}
-
-static void note_ahead(const void *context, struct note note)
-{
-	const struct touchstone_engine *engine = context;
-	if (!note_holds(context, note)) return;
-	uint16_t cell[3];
-	next_cell(&engine->itinerary[note.particle], cell);
-	cells_ahead(&engine->cells, cell);
-	particle_ahead(engine, note.particle);
-	uint32_t partner = next_partner(engine, note.particle);
-	ahead(&engine->itinerary[partner]);
-	particle_ahead(engine, partner);
-}
-
-static void note_far_ahead(const void *context, struct note note)
-{
-	const struct touchstone_engine *engine = context;
-	ahead(&engine->itinerary[note.particle]);
-}
-
 static bool entry_first(const void *context, const struct entry *a, const struct entry *b)
 {
 	if (less(a->time, b->time)) return true;
