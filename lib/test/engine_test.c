@@ -144,6 +144,24 @@ static void search_does_not_matter(void **state)
 	}
 }
 
+/* Of so many discs (engine/agenda.inl: `wide`) the days to come are fetched into the cache: also after the search that
+ * rejects none of them beforehand, and in cells of another size, the events are the same. */
+static void many_particles_are_searched_alike(void **state)
+{
+	(void)state;
+	struct scene_recipe recipe = gas(2, 66000, 0.5);
+	uint64_t events = brief ? 1000 : 30000;
+	struct touchstone_status cells = run(&recipe, "binary64", "stable", events, INFINITY);
+	recipe.cell = 2.5;
+	struct touchstone_status wider = run(&recipe, "binary64", "stable", events, INFINITY);
+	recipe.search = TOUCHSTONE_UNSIEVED;
+	struct touchstone_status unsieved = run(&recipe, "binary64", "stable", events, INFINITY);
+	assert_int_equal(cells.events, events);
+	assert_true(cells.lookups > wider.lookups);
+	assert_int_equal(cells.digest, wider.digest);
+	assert_int_equal(cells.digest, unsieved.digest);
+}
+
 static void threads_do_not_matter(void **state)
 {
 	(void)state;
@@ -365,6 +383,7 @@ int main(void)
 	brief = getenv("TOUCHSTONE_BRIEF");
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(search_does_not_matter),
+		cmocka_unit_test(many_particles_are_searched_alike),
 		cmocka_unit_test(pieces_do_not_matter),
 		cmocka_unit_test(threads_do_not_matter),
 		cmocka_unit_test(equal_precision_in_other_scenes),
