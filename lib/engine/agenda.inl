@@ -67,7 +67,7 @@ static void note_far_ahead(const void *context, struct note note);
 static bool agenda_grow(void **array, size_t *room, size_t used, size_t size)
 {
 	if (used < *room) return true;
-	size_t more = *room + *room / 4 + 64;
+	size_t more = *room + *room / 16 + 16;
 	void *grown = realloc(*array, more * size);
 	if (!grown) return false;
 	*array = grown;
@@ -94,7 +94,7 @@ static bool agenda_create(struct agenda *agenda, double day, size_t days, double
 							  .days = days,
 							  .today = today,
 							  .horizon = today + (double)days,
-							  .wide = days >= (size_t)1 << 14};
+							  .wide = days >= (size_t)1 << 13};
 	agenda->pile = memory_room(days * sizeof *agenda->pile);
 	agenda->used = calloc(days, sizeof *agenda->used);
 	if (agenda->pile) memset(agenda->pile, 0, days * sizeof *agenda->pile);

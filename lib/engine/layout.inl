@@ -114,7 +114,7 @@ static double day_length(const struct touchstone_engine *engine)
 static bool lay_out_agenda(struct touchstone_engine *engine, double day)
 {
 	size_t days = 64;
-	while (days < engine->count / 4) days *= 2;
+	while (days < engine->count / 8) days *= 2;
 	agenda_destroy(&engine->agenda);
 	if (!agenda_create(&engine->agenda, day, days, engine->now.page, to_double(engine->now.time))) return false;
 	for (uint32_t i = 0; i < engine->count; i++) schedule(engine, i);
