@@ -71,7 +71,7 @@ static void look_over(struct touchstone_engine *engine)
 	if (engine->page_length == INFINITY && engine->search != TOUCHSTONE_ALL) {
 		double slack = slack_needed(engine, moment_double(engine->now), typical_speed(engine));
 		if (slack > engine->slack) {
-			engine->slack = 2 * slack;
+			engine->slack = 1.125 * slack; /* no more: a late clock asks for much already, and cells would be few */
 			if (!lay_out(engine)) out_of_memory(engine);
 			return;
 		}

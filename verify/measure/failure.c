@@ -8,7 +8,10 @@
 
 #include "measure/conservation.h"
 
-enum { PATIENCE = 10 }; /* checks in which an overlap may clear */
+enum {
+	PATIENCE = 10, /* checks in which an overlap may clear */
+	SPACING = 1024 /* checks from one state that is kept to the next */
+};
 
 /* A run under watch. */
 struct run {
@@ -19,6 +22,8 @@ struct run {
 	struct conservation begin;
 	double lowest; /* energy, over its scale at the start and from there */
 	double clock;  /* at the last check */
+	bool keeps;    /* a state from which it may be repeated: */
+	struct touchstone_snapshot kept;
 };
 
 /* Two particles, or a particle and a wall. */
@@ -57,10 +62,32 @@ static bool run_begin(struct run *run, const struct touchstone_scene *scene, dou
 	return true;
 }
 
+static void run_forget(struct run *run)
+{
+	if (run->keeps) touchstone_snapshot_free(&run->kept);
+	run->keeps = false;
+}
+
 static void run_end(struct run *run)
 {
+	run_forget(run);
 	touchstone_destroy(run->engine);
 	free(run->position);
+}
+
+/* Takes it back to the state that was kept, or to its start. */
+static bool run_back(struct run *run, double collisions, const char *arithmetic, const char *method,
+					 const struct watch *watch, char error[160])
+{
+	const struct touchstone_scene *scene = run->scene;
+	if (!run->keeps) {
+		run_end(run);
+		return run_begin(run, scene, collisions, arithmetic, method, watch, error);
+	}
+	touchstone_destroy(run->engine);
+	run->engine = touchstone_restore(scene, arithmetic, method, &run->kept, error);
+	run->lowest = 0;
+	return run->engine;
 }
 
 static bool read_positions(struct run *run)
@@ -211,6 +238,7 @@ static uint64_t run_checked(struct run *run, uint64_t stride, const struct touch
 {
 	struct touchstone_status status;
 	struct overlap deep;
+	uint64_t checks = 0;
 	for (uint64_t good = 0;;) {
 		bool goes_on = advance(run, stride, limits, watch);
 		if (judge(run, failure, &deep)) {
@@ -224,6 +252,9 @@ static uint64_t run_checked(struct run *run, uint64_t stride, const struct touch
 		if (!goes_on && !failure->stopped && good < limits->events && limits->time == INFINITY)
 			fail(run, failure, FAILURE_OVER, "after %llu events, at t = %.9g", (unsigned long long)good, status.time);
 		if (!goes_on || failure->stopped) return good;
+		if (++checks % SPACING) continue;
+		run_forget(run);
+		run->keeps = touchstone_save(run->engine, &run->kept);
 	}
 }
 
@@ -235,7 +266,8 @@ static void find_first(struct run *run, uint64_t good, const struct touchstone_l
 	struct overlap deep;
 	const struct watch quiet = {watch ? watch->stop : NULL, NULL, NULL};
 	struct touchstone_status status;
-	if (good > 0) advance(run, good, limits, &quiet);
+	touchstone_status(run->engine, &status);
+	if (good > status.events) advance(run, good - status.events, limits, &quiet);
 	touchstone_status(run->engine, &status);
 	run->clock = status.time;
 	if (judge(run, &first, &deep)) return;
@@ -261,12 +293,12 @@ bool failure_find(const struct touchstone_scene *scene, double collisions, const
 		until.time += run.clock;
 		good = run_checked(&run, stride, &until, watch, failure);
 	}
-	run_end(&run);
 	if (!made || failure_survived(failure)) {
+		run_end(&run);
 		if (failure->kind == FAILURE_REST) failure->event = 0;
 		return made;
 	}
-	made = run_begin(&run, scene, collisions, arithmetic, method, watch, error);
+	made = run_back(&run, collisions, arithmetic, method, watch, error);
 	if (made) find_first(&run, good, &until, watch, failure);
 	run_end(&run);
 	return made;

@@ -167,7 +167,7 @@ static void failures_of_the_atlas_are_shown(void **state)
 		{"grazing", "stable", "short:10", "16"},        {"corner", "naive", "binary64", "62"},
 		{"far-away", "nudge", "short:17", "50"},        {"long-times", "last-event", "short:24", "40"},
 		{"dilute", "stable", "short:14", "612"},        {"dense", "positional", "short:10", "1003"},
-		{"inelastic", "skip", "short:13", "962"},
+		{"inelastic", "skip", "short:11", "491"},
 	};
 	for (size_t c = 0; c < sizeof cells / sizeof *cells; c++) {
 		char words[200], digest[17], query[200];
