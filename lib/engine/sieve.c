@@ -213,7 +213,7 @@ INLINE void pass(const struct sieve *sieve, const struct shadow *shadow, struct 
 INLINE lanes bound_of(const struct sieve *sieve, const struct others *o, lanes inner, lanes outer,
 					  const struct steps *step)
 {
-	static const float fine = 0x1p-9f; /* for a root and an inverse that are near */
+	const float fine = 0x1p-18f + 16 * sieve->roundoff;
 	const lanes zero = {0};
 	flags parts = step->less(zero, outer);
 	lanes farther = step->pick(parts, outer, inner);
@@ -224,12 +224,11 @@ INLINE lanes bound_of(const struct sieve *sieve, const struct others *o, lanes i
 	flags misses = step->less(error_b, o->b) | step->less(d + error_d, zero);
 	flags meets = step->less(b, zero) & step->less(error_d, d);
 	lanes square = step->pick(meets, d + error_d, b * b * (1 - 32 * u) - a * c);
-	flags some = step->less(zero + tiny, square);
-	lanes above = step->near_root(step->pick(some, square, zero + tiny)), end = step->pick(some, above, zero);
+	lanes end = step->root(step->pick(step->less(zero, square), square, zero));
 	flags opens = step->less(zero, b);
 	lanes over = step->pick(meets, c_meets - q, step->pick(opens, -c, end - b));
-	lanes under = step->pick(meets, error_b - o->b + above, step->pick(opens, b + above, a));
-	lanes low = over * step->near_inverse(under) * (1 - fine);
+	lanes under = step->pick(meets, error_b - o->b + end, step->pick(opens, b + end, a));
+	lanes low = over / under * (1 - fine);
 	return step->pick(meets | (misses & parts), low, step->pick(misses, zero + INFINITY, zero));
 }
 

@@ -260,7 +260,7 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint
 		*all += count;
 		for (uint32_t k = 0; k < count; k++) {
 			*asked += bound[0][k] <= soonest;
-			*tight += bound[0][k] == INFINITY ? wait[k] == INFINITY : bound[0][k] >= wait[k] * 0.995L;
+			*tight += bound[0][k] == INFINITY ? wait[k] == INFINITY : bound[0][k] >= wait[k] * 0.999L;
 			if (!(bound[0][k] <= wait[k])) {
 				print_message("%s has pair %u of %u do nothing before %g, wait %Lg, from %g to %g, speed %g\n",
 							  machine->name, k, count, (double)bound[0][k], wait[k], (double)limits[k].inner,
