@@ -30,7 +30,7 @@ bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], c
 			cells->row[cells->rows++] =
 				z * (ptrdiff_t)cells->stride[2] + y * (ptrdiff_t)cells->stride[1] - (ptrdiff_t)cells->stride[0];
 	cells->entries = total;
-	size_t bytes = (total + 16) * sizeof *cells->entry; /* rows may be read 16 entries at a time */
+	size_t bytes = total * sizeof *cells->entry;
 	cells->entry = memory_room(bytes);
 	if (cells->entry) memset(cells->entry, 0xff, bytes);
 	return cells->entry;
@@ -71,6 +71,7 @@ static bool replace(struct cells *cells, size_t index, uint32_t old, uint32_t en
 
 static bool show(struct cells *cells, const uint16_t cell[3], uint32_t particle, bool enter)
 {
+	cells->changes++;
 	if (!cells_at_border(cells, cell)) {
 		size_t index = cells_index(cells, cell);
 		return enter ? replace(cells, index, entry_none, particle) : replace(cells, index, particle, entry_none);
@@ -136,19 +137,33 @@ static size_t list_packed_any(const struct cells *cells, const uint32_t *centre,
 }
 
 #ifdef __x86_64__
-/* Sixteen entries at a time: a row of three cells is usually one such step. */
-__attribute__((target("avx512f,popcnt,bmi,bmi2"))) static size_t
-list_rows_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
-			  uint32_t self, uint32_t *list)
+#define AVX512 static __attribute__((target("avx512f,popcnt,bmi,bmi2")))
+#define AVX512_INLINE AVX512 inline __attribute__((always_inline))
+
+/* The first sixteen of a row's entries, or `length` if they are fewer, and which lanes they fill. What lies behind them
+ * is not read: it would often be a cache line that nobody needs, and for one of 10^6 particles a wait for memory. */
+AVX512_INLINE __m512i row_begin(const uint32_t *row, size_t length, __mmask16 *filled)
 {
-	(void)cells;
+	*filled = length < 16 ? (__mmask16)((1u << length) - 1) : 0xffff;
+	if (length >= 16) return _mm512_loadu_si512(row);
+	if (length < 8) return _mm512_castsi128_si512(_mm_loadu_si128((const void *)row));
+	__m256i eight = _mm256_loadu_si256((const void *)row);
+	if (length < 12) return _mm512_castsi256_si512(eight);
+	__m128i four = _mm_loadu_si128((const void *)(row + 8));
+	return _mm512_inserti64x4(_mm512_castsi256_si512(eight), _mm256_castsi128_si256(four), 1);
+}
+
+/* Sixteen entries at a time. */
+AVX512_INLINE size_t list_rows_of(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
+								  uint32_t self, uint32_t *list)
+{
 	const __m512i none = _mm512_set1_epi32((int)entry_none), own = _mm512_set1_epi32((int)self);
 	size_t found = 0;
 	for (int row = 0; row < rows; row++)
 		for (size_t i = 0; i < length; i += 16) {
-			__m512i some = _mm512_loadu_si512(centre + offset[row] + i);
-			__mmask16 inside = length - i < 16 ? (__mmask16)((1u << (length - i)) - 1) : 0xffff;
-			__mmask16 used = _mm512_mask_cmpneq_epu32_mask(inside, some, none);
+			__mmask16 used;
+			__m512i some = row_begin(centre + offset[row] + i, length - i, &used);
+			used = _mm512_mask_cmpneq_epu32_mask(used, some, none);
 			used = _mm512_mask_cmpneq_epu32_mask(used, some, own);
 			_mm512_storeu_si512(list + found, _mm512_maskz_compress_epi32(used, some));
 			found += (unsigned)__builtin_popcount(used);
@@ -157,9 +172,23 @@ list_rows_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t
 	return found;
 }
 
-__attribute__((target("avx512f,popcnt,bmi,bmi2"))) static size_t
-list_packed_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
-				uint32_t self, uint32_t *list)
+/* The usual rows, three cells of four or of eight entries, need no branch on their length. */
+AVX512 size_t list_rows_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							size_t length, uint32_t self, uint32_t *list)
+{
+	(void)cells;
+	switch (length) {
+	case 12:
+		return list_rows_of(centre, offset, rows, 12, self, list);
+	case 24:
+		return list_rows_of(centre, offset, rows, 24, self, list);
+	default:
+		return list_rows_of(centre, offset, rows, length, self, list);
+	}
+}
+
+AVX512 size_t list_packed_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							  size_t length, uint32_t self, uint32_t *list)
 {
 	const __m512i none = _mm512_set1_epi32((int)entry_none), own = _mm512_set1_epi32((int)self);
 	size_t found = 0;

@@ -55,12 +55,13 @@ struct cells {
 	bool periodic[3];
 	int count[3];      /* without ghosts; coordinates of real cells run from 1 to count */
 	size_t stride[3];  /* in entries */
-	uint32_t capacity; /* entries per cell */
+	uint32_t capacity; /* entries per cell: a multiple of four */
 	bool packed;       /* whether the entries of a cell stand without gaps: where cells are large and mostly empty */
 	uint32_t *entry;   /* all cells, x fastest */
 	size_t entries;
 	ptrdiff_t row[9]; /* offsets, in entries, of the rows of three cells around a cell */
 	int rows;
+	uint64_t changes;        /* how often a particle was entered or taken out */
 	cells_lister *list_rows; /* the fastest there is */
 };
 

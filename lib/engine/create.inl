@@ -28,7 +28,7 @@ static void engine_destroy(struct touchstone_engine *engine)
 	pairs_destroy(&engine->neighbours.pairs);
 	agenda_destroy(&engine->agenda);
 	void *owned[] = {engine->body,           engine->place,          engine->itinerary,      engine->index_of,
-					 engine->radius,         engine->mass,           engine->wall,           engine->candidate[0],
+					 engine->radius,         engine->mass,           engine->wall,           engine->lists,
 					 engine->shadows.shadow, engine->shadows.radius, engine->shadows.limits, engine->potential,
 					 engine->potential_of,   engine->virtual_wall,   engine->side,           engine->crossed,
 					 engine->captured,       engine->temperature,    engine->last_met,       engine->neighbours.anchor};

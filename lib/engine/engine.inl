@@ -73,10 +73,9 @@ extern const struct unit THIS_UNIT;
 
 #include "engine/neighbours.inl"
 
+#include "engine/ahead.inl"
 #include "engine/residence.inl"
 #include "engine/search.inl"
-
-#include "engine/ahead.inl"
 
 #include "engine/policy.inl"
 

@@ -142,13 +142,16 @@ static bool make_cells(struct touchstone_engine *engine, const int count[3], uin
 {
 	for (;; capacity *= 2) {
 		cells_destroy(&engine->cells);
-		free(engine->candidate[0]);
-		engine->candidate[0] = NULL;
+		free(engine->lists);
+		engine->lists = NULL;
 		if (!cells_create(&engine->cells, engine->dimensions, engine->periodic, count, capacity)) return false;
 		size_t most = cells_most(&engine->cells) + 32;
-		engine->candidate[0] = malloc(2 * most * sizeof *engine->candidate[0]);
-		if (!engine->candidate[0]) return false;
-		engine->candidate[1] = engine->candidate[0] + most;
+		engine->lists = malloc(4 * most * sizeof *engine->lists);
+		if (!engine->lists) return false;
+		for (int p = 0; p < 2; p++) {
+			engine->candidate[p] = engine->lists + p * most;
+			engine->listing[p] = (struct listing){.entry = engine->lists + (2 + p) * most, .particle = nobody};
+		}
 		if (fill_cells(engine)) return true;
 	}
 }

@@ -152,9 +152,7 @@ static void predict_listed(struct touchstone_engine *engine, const uint32_t *par
 {
 	if (engine->executing && engine->listener) {
 		size_t candidates[2] = {0};
-		for (int p = 0; p < particles; p++)
-			candidates[p] =
-				cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], engine->candidate[p]);
+		for (int p = 0; p < particles; p++) candidates[p] = list_around(engine, particle[p], p);
 		tell_tests(engine, particle, engine->candidate, candidates, particles);
 	}
 	consider_stored(engine, &engine->neighbours.pairs, 1, particle, particles, plan);
@@ -176,8 +174,7 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 		predict_listed(engine, particle, particles, plan);
 	} else if (engine->count > 1) {
 		uint32_t *const *list = engine->candidate;
-		for (int p = 0; p < particles; p++)
-			candidates[p] = cells_around(&engine->cells, engine->itinerary[particle[p]].cell, particle[p], list[p]);
+		for (int p = 0; p < particles; p++) candidates[p] = list_around(engine, particle[p], p);
 		if (captures && engine->method->policy & POLICY_POSITIONAL)
 			for (int p = 0; p < particles; p++) read_all_again(engine, particle[p], list[p], candidates[p]);
 		bool heard = captures && engine->executing && engine->listener;
@@ -185,6 +182,7 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 		if (heard && !sieved) tell_tests(engine, particle, list, candidates, particles);
 		if (captures) consider_captured(engine, particle, particles, plan);
 		sift(engine, particle, particles, candidates, plan);
+		list_ahead(engine);
 		if (sieved) tell_tests(engine, particle, list, candidates, particles);
 		engine->shadows.sieve.heard = 0;
 		for (int p = 0; captures && p < particles; p++)
@@ -209,6 +207,7 @@ static void predict_entered(struct touchstone_engine *engine, uint32_t i, const 
 	uint32_t *list = engine->candidate[0];
 	size_t candidates = cells_entered(&engine->cells, engine->itinerary[i].cell, step, i, list);
 	sift(engine, &i, 1, &candidates, &plan);
+	list_ahead(engine);
 	if (engine->captured) candidates = without_captured(engine, i, list, candidates);
 	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);

@@ -119,6 +119,16 @@ struct neighbours {
 	struct pairs pairs; /* those listed, each with 1 + its state */
 };
 
+static const uint32_t nobody = UINT32_MAX; /* in place of a particle */
+
+/* What a search will list, as far as that is known before: engine/ahead.inl. */
+struct listing {
+	uint32_t *entry;
+	size_t count;
+	uint32_t particle; /* for which; `nobody` for none */
+	uint64_t changes;  /* of the cells, when it was listed */
+};
+
 struct touchstone_engine {
 	const struct unit *unit; /* unit and bits come first: whoever calls does not know which unit it is */
 	int bits;
@@ -191,7 +201,9 @@ struct touchstone_engine {
 	double stray[3]; /* how far beyond the faces of its cell a particle goes before it leaves it */
 	bool roomy;      /* whether that is far, in straight flights */
 	struct cells cells;
-	uint32_t *candidate[2]; /* entries that a search has listed; two searches may be under way */
+	uint32_t *candidate[2];    /* entries that a search has listed; two searches may be under way */
+	struct listing listing[2]; /* and those that the next ones will list */
+	uint32_t *lists;           /* room for all of them */
 	struct shadows shadows;
 	struct neighbours neighbours;
 	struct agenda agenda;

@@ -14,8 +14,6 @@
  * What goes wrong: a pair that moves along its step is not beyond rounding by then; and when a third particle meets one
  * of the two, the last event is that one, and the pair is read where it stands. */
 
-static const uint32_t nobody = UINT32_MAX;
-
 /* Whether the last event of i and of an entry was one with each other. */
 static bool have_just_met(const struct touchstone_engine *engine, uint32_t i, uint32_t j)
 {
