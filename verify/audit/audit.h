@@ -67,6 +67,9 @@ bool audit_finding(const struct audit *audit);
 /* How many checks are in a state. */
 size_t audit_count(const struct audit *audit, enum audit_state state);
 
+/* Whether a measure has a threshold of its own, whatever nights there were before. */
+bool threshold_asks(const struct suite_measure *asked);
+
 /* What is wrong with a value by its thresholds, given the nights before; `fault` is "" when nothing is. */
 void threshold_judge(const struct suite_measure *asked, const struct check_value *value, const struct night *nights,
 					 size_t night_count, char fault[AUDIT_TEXT]);

@@ -13,7 +13,7 @@ static void print_standing(FILE *stream, const struct audit_check *one, const st
 	if (one->accepted)
 		fputs("accepted", stream);
 	else if (!verdict->compared)
-		fputs("nothing to hold it against", stream);
+		fputs("no earlier audit to hold it against", stream);
 	else if (measure->measured.nature == MEASURE_WORD)
 		fputs(verdict->worse ? "not what it was" : "as it was", stream);
 	else
@@ -34,6 +34,7 @@ static void print_check(FILE *stream, const struct audit *audit, const struct au
 		bool wrong = *measure->fault || *measure->regression;
 		fprintf(stream, "  %c %-22s  %s", wrong ? '!' : ' ', measure->asked->name,
 				measurement_text(&measure->measured, text));
+		if (threshold_asks(measure->asked) && !*measure->fault) fputs("; as asked for", stream);
 		if (audit->plan->history) fputs("; ", stream), print_standing(stream, one, measure);
 		fputc('\n', stream);
 	}

@@ -32,6 +32,11 @@ static bool keeps(double value, double limit, bool at_most)
 	return isnan(limit) || (at_most ? value <= limit : value >= limit);
 }
 
+bool threshold_asks(const struct suite_measure *asked)
+{
+	return asked->equal || asked->same_in || !isnan(asked->at_most) || !isnan(asked->at_least);
+}
+
 void threshold_judge(const struct suite_measure *asked, const struct check_value *value, const struct night *nights,
 					 size_t night_count, char fault[AUDIT_TEXT])
 {
