@@ -13,14 +13,16 @@ static void consider_odd(struct touchstone_engine *engine, uint32_t i, const str
 		halt(engine, i, later, wait, meets, partner);
 }
 
-/* Whether the run has gone back so far that cells, which are kept for the latest moment, may hide a neighbour. A
- * quarter of their slack is left to this. */
+/* Whether the run has gone back so far that cells, which are kept for the latest moment, may hide a neighbour: a quarter
+ * of their slack is left to this. From here on there is more of it, or no cells at all where it would be as wide as what
+ * they are for; they have to be laid out anew. */
 static bool far_back(struct touchstone_engine *engine)
 {
 	if (!moment_before(engine->now, engine->latest)) {
 		engine->latest = engine->now;
 		return false;
 	}
+	if (engine->search == TOUCHSTONE_ALL) return false;
 	double fastest = 0, back = moment_double(engine->latest) - moment_double(engine->now);
 	for (uint32_t i = 0; i < engine->count; i++) {
 		double square = 0;
@@ -30,7 +32,11 @@ static bool far_back(struct touchstone_engine *engine)
 		}
 		fastest = fmax(fastest, square);
 	}
-	return engine->search != TOUCHSTONE_ALL && !(back * sqrt(fastest) <= engine->slack / 4);
+	double needed = 4 * back * sqrt(fastest);
+	if (needed <= engine->slack) return false;
+	engine->slack = 4 * needed; /* so that this is seldom */
+	if (!(engine->slack < engine->reach)) engine->search = TOUCHSTONE_ALL;
+	return true;
 }
 
 /* ------------------------------------------------------------------ contacts moved back */

@@ -123,7 +123,6 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 	if (engine->roomy && !engine->cells.entry) return; /* memory ran out */
 	if (engine->last_met) remember_event(engine, met, particles);
 	if (policy & (POLICY_BACKWARDS | POLICY_SEARCH) && far_back(engine)) {
-		engine->search = TOUCHSTONE_ALL; /* from here on */
 		if (!lay_out(engine)) out_of_memory(engine);
 		return;
 	}

@@ -274,6 +274,6 @@ static bool take_in(struct touchstone_engine *engine, const struct touchstone_sn
 	if (engine->verdict != TOUCHSTONE_DONE) return true;
 	engine->slack = slack_needed(engine, moment_double(engine->now), typical_speed(engine));
 	unsigned backwards = engine->method->policy & (POLICY_BACKWARDS | POLICY_SEARCH);
-	if (backwards && moment_before(engine->now, engine->latest) && far_back(engine)) engine->search = TOUCHSTONE_ALL;
+	if (backwards && moment_before(engine->now, engine->latest)) far_back(engine);
 	return lay_out(engine);
 }
