@@ -13,9 +13,9 @@ static void consider_odd(struct touchstone_engine *engine, uint32_t i, const str
 		halt(engine, i, later, wait, meets, partner);
 }
 
-/* Whether the run has gone back so far that cells, which are kept for the latest moment, may hide a neighbour: a quarter
- * of their slack is left to this. From here on there is more of it, or no cells at all where it would be as wide as what
- * they are for; they have to be laid out anew. */
+/* Whether the run has gone back so far that cells, which are kept for the latest moment, may hide a neighbour: a
+ * quarter of their slack is left to this. From here on there is more of it, or no cells at all where it would be as
+ * wide as what they are for; they have to be laid out anew. */
 static bool far_back(struct touchstone_engine *engine)
 {
 	if (!moment_before(engine->now, engine->latest)) {
