@@ -10,7 +10,6 @@
 #include "command/interrupt.h"
 #include "command/output.h"
 #include "result.h"
-#include "store/text.h"
 
 enum { ARITHMETIC = 256, METHOD, CASES, STARTS, SEED, SECONDS, THREADS, CSV, RESULTS, MOST_NAMES = 32 };
 
@@ -80,8 +79,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		wish->seed = option_count("seed", argument, 0, INT64_MAX);
 		return 0;
 	case SECONDS:
-		if (!text_number(argument, &wish->seconds) || wish->seconds < 0.1 || wish->seconds > 1e6)
-			refuse_option("seconds", argument, "seconds, 0.1 to 1e6");
+		wish->seconds = option_number("seconds", argument, 0.1, 1e6, "seconds, 0.1 to 1e6");
 		return 0;
 	case THREADS:
 		wish->threads = (int)option_count("threads", argument, 1, 1024);

@@ -46,6 +46,9 @@ _Noreturn void refuse_option(const char *option, const char *argument, const cha
 /* A whole number from least to most, such as "1000" or "1e6", or refuse_option. */
 uint64_t option_count(const char *option, const char *argument, uint64_t least, uint64_t most);
 
+/* A number from least to most, or refuse_option with `accepted`. */
+double option_number(const char *option, const char *argument, double least, double most, const char *accepted);
+
 /* The words of a command line, for a result to tell; to be freed. NULL when out of memory. */
 char *command_line(int argc, char **argv);
 

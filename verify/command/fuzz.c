@@ -17,7 +17,6 @@
 #include "command/progress.h"
 #include "fuzz/corpus.h"
 #include "fuzz/shrink.h"
-#include "store/text.h"
 
 enum { ARITHMETIC = 256, SHAPE, PLUGIN, PATIENCE, BOUND, SECONDS, QUESTIONS, SEED, CORPUS, THREADS, JSON };
 
@@ -43,14 +42,6 @@ struct wish {
 	uint64_t questions, seed;
 	int threads;
 };
-
-static double option_number(const char *option, const char *argument, double least, double most, const char *accepted)
-{
-	double number;
-	if (!text_number(argument, &number) || !(number >= least && number <= most))
-		refuse_option(option, argument, accepted);
-	return number;
-}
 
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
@@ -118,19 +109,6 @@ static void show(void *context, double part)
 	progress_show(&chase->progress, 100 * part, 100);
 }
 
-static char *question_of(const struct fuzz_case *one, enum touchstone_shape shape, int q)
-{
-	char *text = NULL;
-	size_t length;
-	FILE *stream = open_memstream(&text, &length);
-	if (!stream) return NULL;
-	struct query query = {.shape = shape};
-	memcpy(query.number, one->number[q], sizeof query.number);
-	query_write(stream, &query);
-	fclose(stream);
-	return text;
-}
-
 /* ---- telling */
 
 static bool is_finding(const struct fuzz_hunt *hunt)
@@ -155,7 +133,7 @@ static void print_hunt(const struct fuzz_hunt *hunt)
 			   finding->shrunk.promised ? "" : "(beyond what it claims) ", words, finding->met, finding->seconds,
 			   fuzz_case_bits(subject->shape, &finding->shrunk), fuzz_case_bits(subject->shape, &finding->first));
 		for (int q = 0; q < finding->shrunk.questions; q++) {
-			char *text = question_of(&finding->shrunk, subject->shape, q);
+			char *text = query_text(subject->shape, finding->shrunk.number[q]);
 			printf("    %s\n", text ? text : "");
 			free(text);
 		}
@@ -168,7 +146,7 @@ static json_t *finding_json(const struct fuzz_subject *subject, const struct fuz
 	fuzz_words(subject, &finding->shrunk, words);
 	json_t *questions = json_array();
 	for (int q = 0; q < finding->shrunk.questions; q++) {
-		char *text = question_of(&finding->shrunk, subject->shape, q);
+		char *text = query_text(subject->shape, finding->shrunk.number[q]);
 		json_array_append_new(questions, json_string(text ? text : ""));
 		free(text);
 	}

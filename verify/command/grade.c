@@ -69,8 +69,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 		words_add(&wish->guests.plugins, argument);
 		return 0;
 	case PATIENCE:
-		if (!text_number(argument, &wish->patience) || wish->patience < 0.01 || wish->patience > 1e6)
-			refuse_option("patience", argument, "seconds, 0.01 to 1e6");
+		wish->patience = option_number("patience", argument, 0.01, 1e6, "seconds, 0.01 to 1e6");
 		return 0;
 	case CASES:
 		wish->cases = option_count("cases", argument, 1, 100000000);

@@ -154,7 +154,7 @@ static void add_numbers(struct result *result, const struct part *part)
 		const struct grade_row *row = &part->grading->rows[r];
 		if (!belongs(part, row)) continue;
 		const struct finder_example *worst = &row->grade.example[FINDER_FOUND];
-		char *text = worst->there ? question_text(row->shape, worst->number) : NULL;
+		char *text = worst->there ? query_text(row->shape, worst->number) : NULL;
 		table_row(table);
 		table_text(table, "%s", row->source->name);
 		table_text(table, "%s", row->finder->method);
@@ -184,7 +184,7 @@ static void add_findings(struct result *result, const struct grading *grading)
 	for (size_t f = 0; f < grading->fault_count; f++) {
 		const struct grade_fault *fault = &grading->faults[f];
 		const struct grade_row *row = &grading->rows[fault->row];
-		char words[120], *text = question_text(row->shape, fault->number);
+		char words[120], *text = query_text(row->shape, fault->number);
 		plugin_fault_words(&fault->fault, words);
 		table_row(table);
 		table_text(table, "%s", row->finder->method);

@@ -6,19 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-char *question_text(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS])
-{
-	char *text = NULL;
-	size_t size;
-	struct query query = {.shape = shape};
-	memcpy(query.number, number, sizeof query.number);
-	FILE *stream = open_memstream(&text, &size);
-	if (!stream) return NULL;
-	query_write(stream, &query);
-	fclose(stream);
-	return text;
-}
-
 /* ---- comma-separated values */
 
 static void write_number(FILE *stream, double value, const char *format)
@@ -38,7 +25,7 @@ static void write_row(FILE *stream, const struct grade_row *row)
 	write_number(stream, row->median_ulp, "%.9g");
 	write_number(stream, row->p999_ulp, "%.9g");
 	write_number(stream, row->max_ulp, "%.9g");
-	char *text = worst->there ? question_text(row->shape, worst->number) : NULL;
+	char *text = worst->there ? query_text(row->shape, worst->number) : NULL;
 	fprintf(stream, ",%s", text ? text : "");
 	free(text);
 	write_number(stream, row->nanoseconds, "%.3f");
@@ -147,7 +134,7 @@ static const struct grade_row *gravest(const struct grading *grading, const stru
 static void print_example(FILE *stream, const struct grade_row *row, enum finder_class class)
 {
 	const struct finder_example *example = &row->grade.example[class];
-	char *text = question_text(row->shape, example->number), error[40];
+	char *text = query_text(row->shape, example->number), error[40];
 	snprintf(error, sizeof error, "%.3g ulp", row->max_ulp);
 	fprintf(stream, "%s %s, %s, %s: %s\n", row->finder->method, row->finder->arithmetic,
 			class == FINDER_FOUND ? error : finder_class_name(class), row->source->name, text ? text : "");
@@ -178,7 +165,7 @@ static void print_examples(FILE *stream, const struct grading *grading)
 char *grade_row_broken(const struct grade_row *row)
 {
 	char words[200], *said = NULL;
-	char *text = question_text(row->shape, row->grade.breach.number);
+	char *text = query_text(row->shape, row->grade.breach.number);
 	finder_claim_words(&row->claim, words);
 	if (asprintf(&said, "%s %s claims %s; not so %" PRIu64 " times in %s, first with %a for %s", row->finder->method,
 				 row->finder->arithmetic, words, row->grade.broken, row->source->name, row->grade.breach.answer,
@@ -190,7 +177,7 @@ char *grade_row_broken(const struct grade_row *row)
 
 static void print_fault(FILE *stream, const struct grade_row *row, const struct grade_fault *fault)
 {
-	char words[120], *text = question_text(row->shape, fault->number);
+	char words[120], *text = query_text(row->shape, fault->number);
 	plugin_fault_words(&fault->fault, words);
 	fprintf(stream, "%s %s%s at %s %ld of %s: %s\n", row->finder->method, words,
 			fault->fault.alone ? "" : ", though not when asked nothing else,",

@@ -89,7 +89,4 @@ struct result *grading_result(const struct grading_plan *plan, const struct grad
 /* Which claim a row's finder does not keep, how often, and on which question first; to be freed. */
 char *grade_row_broken(const struct grade_row *row);
 
-/* A question as a line, as query_write writes it; to be freed. NULL when out of memory. */
-char *question_text(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS]);
-
 #endif

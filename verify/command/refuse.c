@@ -48,3 +48,11 @@ uint64_t option_count(const char *option, const char *argument, uint64_t least, 
 	if (!text_count(argument, &count) || count < least || count > most) refuse_option(option, argument, accepted);
 	return count;
 }
+
+double option_number(const char *option, const char *argument, double least, double most, const char *accepted)
+{
+	double number;
+	if (!text_number(argument, &number) || !(number >= least && number <= most))
+		refuse_option(option, argument, accepted);
+	return number;
+}

@@ -253,3 +253,16 @@ void query_write(FILE *stream, const struct query *query)
 	if (query->comment) fprintf(stream, " # %s", query->comment);
 	numbers_as_before(before);
 }
+
+char *query_text(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS])
+{
+	char *text = NULL;
+	size_t size;
+	struct query query = {.shape = shape};
+	memcpy(query.number, number, sizeof query.number);
+	FILE *stream = open_memstream(&text, &size);
+	if (!stream) return NULL;
+	query_write(stream, &query);
+	fclose(stream);
+	return text;
+}

@@ -39,4 +39,7 @@ void query_file_free(struct query_file *file);
 /* Writes a query as one line without a newline: hex floats by "%a". */
 void query_write(FILE *stream, const struct query *query);
 
+/* The same as a text, to be freed. NULL when out of memory. */
+char *query_text(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS]);
+
 #endif
