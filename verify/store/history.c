@@ -107,7 +107,7 @@ static bool examine(const struct history *history, char error[STORE_ERROR])
 	const char *said = there ? (const char *)sqlite3_column_text(statement, 0) : NULL;
 	bool whole = said && strcmp(said, "ok") == 0;
 	if (there && !whole) snprintf(error, STORE_ERROR, "%.200s: is damaged: %.200s", history->path, said ? said : "?");
-	text_one_line(error);
+	if (!whole) text_one_line(error);
 	sqlite3_finalize(statement);
 	return whole;
 }
