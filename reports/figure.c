@@ -217,12 +217,16 @@ static bool run_gnuplot(const char *folder, const char *messages, char error[REP
 	pid_t child;
 	int failed = posix_spawnp(&child, "gnuplot", &actions, NULL, arguments, environ), status = 0;
 	posix_spawn_file_actions_destroy(&actions);
-	if (failed) {
-		snprintf(error, REPORT_ERROR, failed == ENOENT ? "gnuplot is not installed" : "gnuplot cannot be started: %s",
-				 strerror(failed));
+	if (failed && failed != ENOENT) {
+		snprintf(error, REPORT_ERROR, "gnuplot cannot be started: %s", strerror(failed));
 		return false;
 	}
-	while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+	while (!failed && waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+	if (failed ||
+		(WIFEXITED(status) && WEXITSTATUS(status) == 127)) { /* as POSIX has it where the parent cannot know */
+		snprintf(error, REPORT_ERROR, "gnuplot is not installed");
+		return false;
+	}
 	if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
 	char said[REPORT_ERROR / 2] = "";
 	FILE *file = fopen(messages, "r");

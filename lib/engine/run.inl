@@ -163,6 +163,13 @@ static uint64_t patience(const struct touchstone_engine *engine)
 	return (UINT64_C(1) << 22) + UINT64_C(64) * engine->count;
 }
 
+/* After so many looks in a row, or when asked to: where time stands still no day ends, at whose end that is asked too.
+ */
+static bool give_up(const struct touchstone_engine *engine, const struct touchstone_limits *limits, uint64_t looks)
+{
+	return looks > patience(engine) || (looks % 4096 == 0 && limits->stop && *limits->stop);
+}
+
 static enum touchstone_verdict engine_run(struct touchstone_engine *engine, const struct touchstone_limits *limits,
 										  const struct touchstone_observer *observer)
 {
@@ -194,7 +201,7 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 			wait_until(engine, limits->time);
 			break;
 		} else if (engine->itinerary[i].next != NEXT_IS_PHYSICAL || stale(engine, i)) {
-			if (++looks > patience(engine)) break;
+			if (give_up(engine, limits, ++looks)) break;
 			engine->lookups++;
 			heap_drop(agenda, engine);
 			if (engine->itinerary[i].next != NEXT_IS_PHYSICAL) {
@@ -205,7 +212,7 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 		} else if (engine->events == last) {
 			break;
 		} else if (engine->itinerary[i].meets == TOUCHSTONE_CROSSING) {
-			if (++looks > patience(engine)) break;
+			if (give_up(engine, limits, ++looks)) break;
 			heap_drop(agenda, engine);
 			pass_virtual_wall(engine, i);
 			look_again(engine, i);

@@ -2,6 +2,9 @@
  * bit: in every arithmetic, with any search, for scenes of all kinds. */
 #include "step_scenes.h"
 
+#include <signal.h>
+#include <sys/time.h>
+
 static bool brief; /* under sanitizers, where everything takes ten times longer */
 
 static const char *const arithmetics[] = {"binary64", "binary32",  "short:9", "twin",     "binary64",
@@ -264,13 +267,66 @@ static void altered_states_do_no_harm(void **state)
 	assert_true(refused > 0 && taken > 0);
 }
 
+/* ------------------------------------------------------------------ states that nothing leads to */
+
+static volatile int stop;
+
+static void tell_stop(int number)
+{
+	(void)number;
+	stop = 1;
+}
+
+/* A ball that was made so fast that it crosses its cells at one and the same time by the clock, and meets nothing. */
+static void a_run_can_be_stopped_where_time_stands_still(void **state)
+{
+	(void)state;
+	static const struct touchstone_particle apart[2] = {{.velocity = {1, 0.5, 0.25}}, {.position = {0, 5, 5}}};
+	static const struct touchstone_species species = {1, 1};
+	const struct touchstone_scene scene = {.dimensions = 3,
+										   .particle_count = 2,
+										   .particles = apart,
+										   .species_count = 1,
+										   .species = &species,
+										   .box = {20, 20, 20},
+										   .periodic = {true, true, true},
+										   .cell = 2};
+	char error[160];
+	struct touchstone_snapshot snapshot;
+	struct touchstone_engine *engine = touchstone_create(&scene, "binary64", "stable", error);
+	if (!engine) fail_msg("%s", error);
+	touchstone_run(engine, &(struct touchstone_limits){100, 0.7, NULL}, NULL);
+	assert_true(touchstone_save(engine, &snapshot));
+	touchstone_destroy(engine);
+	double *velocity = field_of(&snapshot, "velocity")->data;
+	for (int axis = 0; axis < 3; axis++) velocity[axis] *= 1e30;
+	memcpy(field_of(&snapshot, "time")->data, field_of(&snapshot, "now_time")->data, sizeof(double));
+	engine = touchstone_restore(&scene, "binary64", "stable", &snapshot, error);
+	touchstone_snapshot_free(&snapshot);
+	if (!engine) fail_msg("%s", error);
+	struct touchstone_status status;
+	const struct itimerval soon = {.it_value.tv_usec = 20000}, none = {.it_value.tv_usec = 0};
+	signal(SIGVTALRM, tell_stop);
+	setitimer(ITIMER_VIRTUAL, &soon, NULL);
+	touchstone_run(engine, &(struct touchstone_limits){1, INFINITY, &stop}, NULL);
+	setitimer(ITIMER_VIRTUAL, &none, NULL);
+	touchstone_status(engine, &status);
+	print_message("stopped after %llu looks and %llu events\n", (unsigned long long)status.lookups,
+				  (unsigned long long)status.events);
+	assert_in_range(status.lookups, 1, 1 << 22);
+	touchstone_destroy(engine);
+}
+
 int main(void)
 {
 	brief = getenv("TOUCHSTONE_BRIEF");
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(a_stop_changes_nothing),           cmocka_unit_test(a_stop_after_other_units_changes_nothing),
-		cmocka_unit_test(a_state_survives_to_the_last_bit), cmocka_unit_test(other_scenes_and_arithmetics_are_refused),
+		cmocka_unit_test(a_stop_changes_nothing),
+		cmocka_unit_test(a_stop_after_other_units_changes_nothing),
+		cmocka_unit_test(a_state_survives_to_the_last_bit),
+		cmocka_unit_test(other_scenes_and_arithmetics_are_refused),
 		cmocka_unit_test(altered_states_do_no_harm),
+		cmocka_unit_test(a_run_can_be_stopped_where_time_stands_still),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
