@@ -6,7 +6,7 @@
 #   make bench             what an event costs, held against the run before; FULL=1 for longer, STORE=1 to keep this run
 #   make soak              an hour of looking for what is rare, SOAK=600 for ten minutes: kills of runs, campaigns and
 #                          audits, the correctly rounded finder against the exact oracle, make fuzz, make valgrind
-#   make valgrind          test programs, and what they start, under valgrind's memcheck: an hour or two of two cores;
+#   make valgrind          test programs, and what they start, under valgrind's memcheck: an hour of one core;
 #                          MEMCHECK=900 for so many seconds in all, MEMCHECK_EACH=60 at most
 #   make fuzz              coverage-guided fuzzing of finders and readers, SECONDS_EACH=60; FUZZER=afl for AFL++;
 #                          verify/fuzz/coverage does the same, and ends with 77 where the fuzzer is missing

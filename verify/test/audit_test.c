@@ -1,7 +1,6 @@
 /* The command audit, as a nightly job meets it. */
 #include <signal.h>
 #include <sqlite3.h>
-#include <time.h>
 
 #include "program.h"
 
