@@ -161,7 +161,9 @@ static void thresholds_are_kept_or_not(void **state)
 	struct suite_measure asked = none;
 	struct measurement seven = measurement_proportion(7, 100);
 	assert_string_equal(judge(&asked, seven, "", NULL, 0), "");
+	assert_false(threshold_asks(&none));
 	asked.at_most = 0.07, asked.at_least = 0.07;
+	assert_true(threshold_asks(&asked));
 	assert_string_equal(judge(&asked, seven, "", NULL, 0), "");
 	assert_string_equal(judge(&asked, measurement_proportion(8, 100), "", NULL, 0),
 						"0.08, where at most 0.07 is asked for");
@@ -174,6 +176,7 @@ static void thresholds_are_kept_or_not(void **state)
 	for (int n = 0; n < 20; n++)
 		nights[n] = (struct night){n, 1, n != 15, measurement_proportion(n < 9 || n == 15 ? 90 : 10, 100)};
 	asked = none, asked.at_most_times = 1.5, asked.at_least_times = 0.5;
+	assert_false(threshold_asks(&asked)); /* nothing, where no night was before */
 	assert_string_equal(judge(&asked, measurement_proportion(15, 100), "", nights, 20), "");
 	assert_string_equal(judge(&asked, measurement_proportion(16, 100), "", nights, 20),
 						"0.16, where at most 1.5 times 0.1 is asked for, the median of 10 good nights");
@@ -181,9 +184,11 @@ static void thresholds_are_kept_or_not(void **state)
 	assert_string_equal(judge(&asked, measurement_proportion(99, 100), "", nights, 0), ""); /* no night yet */
 
 	asked = none, asked.equal = "done";
+	assert_true(threshold_asks(&asked));
 	assert_string_equal(judge(&asked, measurement_word("done"), "", NULL, 0), "");
 	assert_string_equal(judge(&asked, measurement_word("halted"), "", NULL, 0), "halted, where done is asked for");
 	asked = none, asked.same_in = "mpfr:53";
+	assert_true(threshold_asks(&asked));
 	assert_string_equal(judge(&asked, measurement_word("f00d"), "f00d", NULL, 0), "");
 	assert_string_equal(judge(&asked, measurement_word("f00d"), "beef", NULL, 0), "f00d, but beef in mpfr:53");
 }
