@@ -45,8 +45,10 @@ struct agenda {
 	uint32_t blocks, block_room, spare;
 	struct entry *heap; /* the day that is open */
 	size_t size, heap_room;
-	struct distant *distant; /* beyond the horizon, in no order */
+	struct distant *distant; /* beyond the horizon, in no order, or as a heap with the earliest day first */
 	size_t distants, distant_room;
+	size_t looked_through;   /* how many there were when those overtaken were last dropped */
+	bool sparse;             /* whether they are that heap */
 	size_t beyond;           /* events so far off that their day has no exact number: they were not entered */
 	uint64_t opened, sorted; /* days opened and entries found there: to judge the length of a day by */
 	bool wide;               /* whether its days are so many that none is in the cache when it is opened */
@@ -147,12 +149,39 @@ static void pile_add(struct agenda *agenda, double day, struct note note)
 	agenda->piled++;
 }
 
+/* Enters into the first `size` of the distant, which are a heap, one more. */
+static void distant_rise(struct distant *heap, size_t size, struct distant distant)
+{
+	size_t hole = size;
+	for (size_t parent; hole && distant.day < heap[parent = (hole - 1) / 2].day; hole = parent)
+		heap[hole] = heap[parent];
+	heap[hole] = distant;
+}
+
+/* Takes the earliest out of that heap. */
+static struct distant distant_take(struct agenda *agenda)
+{
+	struct distant *heap = agenda->distant, first = heap[0], last = heap[--agenda->distants];
+	size_t hole = 0, child;
+	while ((child = 2 * hole + 1) < agenda->distants) {
+		child += child + 1 < agenda->distants && heap[child + 1].day < heap[child].day;
+		if (last.day <= heap[child].day) break;
+		heap[hole] = heap[child];
+		hole = child;
+	}
+	heap[hole] = last;
+	return first;
+}
+
 static void distant_add(struct agenda *agenda, double day, struct note note)
 {
-	if (agenda_grow((void **)&agenda->distant, &agenda->distant_room, agenda->distants, sizeof *agenda->distant))
-		agenda->distant[agenda->distants++] = (struct distant){day, note};
-	else
+	const struct distant distant = {day, note};
+	if (!agenda_grow((void **)&agenda->distant, &agenda->distant_room, agenda->distants, sizeof *agenda->distant))
 		agenda->exhausted = true;
+	else if (agenda->sparse)
+		distant_rise(agenda->distant, agenda->distants++, distant);
+	else
+		agenda->distant[agenda->distants++] = distant;
 }
 
 static void heap_add(struct agenda *agenda, const void *context, struct entry entry)
@@ -209,21 +238,54 @@ static void agenda_push(struct agenda *agenda, const void *context, double page,
 		distant_add(agenda, day, entry.note);
 }
 
-/* A new round of the ring begins on `today`: what was beyond the horizon is looked through. */
-static void agenda_turn(struct agenda *agenda, const void *context, double today)
+/* Looks through what is beyond the horizon for what is not any more, and for what was overtaken. Returns how many went
+ * into the ring. */
+static size_t distant_look(struct agenda *agenda, const void *context)
 {
-	agenda->today = today;
-	agenda->horizon = today + (double)agenda->days;
-	size_t kept = 0;
+	size_t kept = 0, moved = 0;
 	for (size_t i = 0; i < agenda->distants; i++) {
 		struct distant distant = agenda->distant[i];
 		if (!note_holds(context, distant.note)) continue;
 		if (distant.day < agenda->horizon)
-			pile_add(agenda, distant.day, distant.note);
+			pile_add(agenda, distant.day, distant.note), moved++;
 		else
 			agenda->distant[kept++] = distant;
 	}
-	agenda->distants = kept;
+	agenda->distants = agenda->looked_through = kept;
+	return moved;
+}
+
+/* A new round of the ring begins on `today`. Where it brings but few of those beyond the horizon, they are not all
+ * looked through in the rounds that come: they are made a heap. */
+static void agenda_turn(struct agenda *agenda, const void *context, double today)
+{
+	enum { FEW = 16 };
+	size_t moved = 0;
+	bool heap = agenda->sparse && agenda->distants <= 2 * agenda->looked_through + FEW;
+	agenda->today = today;
+	agenda->horizon = today + (double)agenda->days;
+	if (!heap) moved = distant_look(agenda, context);
+	while (heap && agenda->distants && agenda->distant[0].day < agenda->horizon) {
+		struct distant next = distant_take(agenda);
+		if (note_holds(context, next.note)) pile_add(agenda, next.day, next.note), moved++;
+	}
+	agenda->sparse = FEW * moved < agenda->distants;
+	for (size_t i = 0; agenda->sparse && !heap && i < agenda->distants; i++)
+		distant_rise(agenda->distant, i, agenda->distant[i]);
+}
+
+/* The first day beyond the horizon that has entries; INFINITY: none. */
+static double distant_first(struct agenda *agenda, const void *context)
+{
+	double first = INFINITY;
+	if (agenda->sparse) {
+		while (agenda->distants && !note_holds(context, agenda->distant[0].note)) distant_take(agenda);
+		return agenda->distants ? agenda->distant[0].day : INFINITY;
+	}
+	for (size_t i = 0; i < agenda->distants; i++)
+		if (agenda->distant[i].day < first && note_holds(context, agenda->distant[i].note))
+			first = agenda->distant[i].day;
+	return first;
 }
 
 /* Enters what so many notes of a pile still hold true into the heap. */
@@ -267,9 +329,7 @@ static bool agenda_open(struct agenda *agenda, const void *context, bool *turned
 {
 	while (agenda->size == 0) {
 		if (agenda->piled == 0) {
-			double next = INFINITY;
-			for (size_t i = 0; i < agenda->distants; i++)
-				if (note_holds(context, agenda->distant[i].note)) next = fmin(next, agenda->distant[i].day);
+			double next = distant_first(agenda, context);
 			if (next == INFINITY) return false;
 			agenda_turn(agenda, context, next);
 			*turned = true;

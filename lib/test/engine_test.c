@@ -205,6 +205,47 @@ static void pieces_do_not_matter(void **state)
 	scene_free(&scene);
 }
 
+static void never_goes_back(void *context, struct touchstone_engine *engine, const struct touchstone_event *event)
+{
+	double *clock = context;
+	(void)engine;
+	assert_true(event->time >= *clock);
+	*clock = event->time;
+}
+
+/* A gas that has cooled until its events are many pages apart has them in order still, and the same ones when its
+ * agenda is written anew now and then. */
+static void cold_gases_keep_their_order(void **state)
+{
+	(void)state;
+	struct scene_recipe recipe = gas(3, 108, 0.5);
+	recipe.restitution = (struct touchstone_restitution){TOUCHSTONE_VISCOELASTIC, 0.3};
+	const uint64_t events = brief ? 20000 : 200000;
+	struct touchstone_status whole = run(&recipe, "binary64", "stable", events, INFINITY), status;
+	struct touchstone_scene scene;
+	struct scene_error complaint;
+	struct touchstone_snapshot snapshot;
+	char error[160];
+	double clock = 0;
+	const struct touchstone_observer observer = {never_goes_back, &clock};
+	assert_true(scene_build(&recipe, SEED, &scene, &complaint));
+	struct touchstone_engine *engine = touchstone_create(&scene, "binary64", "stable", error);
+	for (int part = 0; part < 100; part++) {
+		touchstone_run(engine, &(struct touchstone_limits){events / 100, INFINITY, NULL}, &observer);
+		assert_true(touchstone_save(engine, &snapshot));
+		touchstone_destroy(engine);
+		engine = touchstone_restore(&scene, "binary64", "stable", &snapshot, error);
+		touchstone_snapshot_free(&snapshot);
+	}
+	touchstone_status(engine, &status);
+	print_message("%llu events to t = %g\n", (unsigned long long)status.events, status.time);
+	assert_int_equal(status.events, events);
+	assert_true(brief || status.time / (double)events > 1000);
+	assert_int_equal(status.digest, whole.digest);
+	touchstone_destroy(engine);
+	scene_free(&scene);
+}
+
 /* Equal balls on a line, elastic: velocities are handed on, and five touching balls pass one on at once. */
 static void cradle_passes_one_ball_on(void **state)
 {
@@ -385,6 +426,7 @@ int main(void)
 		cmocka_unit_test(search_does_not_matter),
 		cmocka_unit_test(many_particles_are_searched_alike),
 		cmocka_unit_test(pieces_do_not_matter),
+		cmocka_unit_test(cold_gases_keep_their_order),
 		cmocka_unit_test(threads_do_not_matter),
 		cmocka_unit_test(equal_precision_in_other_scenes),
 		cmocka_unit_test(equal_precision_means_equal_events),
