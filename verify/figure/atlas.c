@@ -62,8 +62,15 @@ static bool survives(const struct trial *trial, int rung, struct failure *failur
 		   !failure->stopped && atlas_goes_well(failure->kind);
 }
 
-/* In binary64, then by bisection where it begins to survive. Refused with the reason in `error`. What survives in
- * binary64 mostly does so in 25 bits, which are tried before any that take longer. */
+/* The rung to be tried next, between one that fails and one that survives. What survives in binary64 mostly does so in
+ * 25 bits or fewer, of which each is tried before any that take longer. */
+static int between(int low, int high)
+{
+	if (low < FAST && high > FAST) high = FAST + 1;
+	return (low + high) / 2;
+}
+
+/* In binary64, then by bisection where it begins to survive. Refused with the reason in `error`. */
 static void fill(const struct trial *trial, struct atlas_cell *cell, char error[160])
 {
 	*error = '\0';
@@ -80,7 +87,7 @@ static void fill(const struct trial *trial, struct atlas_cell *cell, char error[
 			low = FINEST, cell->below = failure;
 	}
 	while (high - low > 1 && !failure.stopped) {
-		int middle = low < FAST && high == ATLAS_BINARY64 ? FAST : (low + high) / 2;
+		int middle = between(low, high);
 		if (survives(trial, middle, &failure, error))
 			high = middle;
 		else
