@@ -37,7 +37,7 @@ static int separation_terms(const struct touchstone_engine *engine, const struct
 /* Whether a particle may overlap one that stands where it is now: in double, with room for what the working arithmetic
  * rounds on the way there (less than 8 units of each of these lengths). Most neighbours may not. */
 static bool may_overlap(const struct touchstone_engine *engine, const struct standing *first, uint32_t entry,
-						double contact)
+						double contact, double rounding)
 {
 	uint32_t j = entry_particle(entry);
 	const struct body *body = &engine->body[j];
@@ -53,7 +53,7 @@ static bool may_overlap(const struct touchstone_engine *engine, const struct sta
 		lengths += fabs(here) + fabs(there) + fabs(path) + fabs(speed) * engine->page_turn;
 		squares += apart * apart;
 	}
-	double near = contact + (ldexp(1, -engine->bits) + 0x1p-40) * 8 * lengths;
+	double near = contact + rounding * lengths;
 	return squares < near * near;
 }
 
@@ -71,6 +71,42 @@ static double overlap_depth(const struct touchstone_engine *engine, const struct
 	return fmax(0, -excess_signed(terms, count, distance));
 }
 
+/* Of the neighbours of particle i, keeps those that may overlap it. */
+static size_t keep_near(const struct touchstone_engine *engine, uint32_t i, const struct standing *first,
+						uint32_t *candidate, size_t candidates)
+{
+	double rounding = (ldexp(1, -engine->bits) + 0x1p-40) * 8;
+	size_t near = 0;
+	for (size_t k = 0; k < candidates; k++) {
+		double contact = to_double(contact_distance(engine, i, entry_particle(candidate[k])));
+		candidate[near] = candidate[k];
+		near += may_overlap(engine, first, candidate[k], contact, rounding);
+	}
+	return near;
+}
+
+/* The same by their shadows, which are as of now. */
+static size_t keep_near_by_shadow(const struct touchstone_engine *engine, uint32_t i, uint32_t *candidate,
+								  size_t candidates)
+{
+	double unit = engine->shadows.per_length, own = to_double(contact_distance(engine, i, i));
+	uint32_t kept[LOOKED_OVER + 16];
+	struct bounds bounds;
+	size_t near = 0;
+	cast_shadow(engine, i);
+	for (uint32_t k = 0; k < LOOKED_OVER + 16; k++) bounds.inner[k] = (float)(own * unit), bounds.outer[k] = INFINITY;
+	for (size_t at = 0, some; at < candidates; at += some) {
+		some = candidates - at < LOOKED_OVER ? candidates - at : LOOKED_OVER;
+		for (uint32_t k = 0; engine->species_count > 1 && k < some; k++) {
+			num contact = contact_distance(engine, i, entry_particle(candidate[at + k]));
+			bounds.inner[k] = (float)(to_double(contact) * unit);
+		}
+		size_t found = out_of_bounds(engine, i, candidate + at, &bounds, some, kept);
+		for (size_t k = 0; k < found; k++) candidate[near++] = candidate[at + kept[k]];
+	}
+	return near;
+}
+
 static size_t engine_overlaps(const struct touchstone_engine *engine, uint32_t particle,
 							  struct touchstone_overlap *list, size_t room)
 {
@@ -79,13 +115,16 @@ static size_t engine_overlaps(const struct touchstone_engine *engine, uint32_t p
 	struct standing first = {engine->body[i], engine->place[i]};
 	advance(engine, &first.body, &first.place, engine->now);
 	size_t candidates = cells_around(&engine->cells, engine->itinerary[i].cell, i, candidate), found = 0;
+	const struct shadows *shadows = &engine->shadows;
+	if (shadows->shadow && since_base(engine, engine->now.page, to_double(engine->now.time)) == shadows->now)
+		candidates = keep_near_by_shadow(engine, i, candidate, candidates);
+	else
+		candidates = keep_near(engine, i, &first, candidate, candidates);
 	for (size_t k = 0; k < candidates; k++) {
 		uint32_t j = entry_particle(candidate[k]);
 		const struct potential *potential = potential_between(engine, i, j);
 		if (potential && !potential->hard) continue;
-		num contact = contact_distance(engine, i, j);
-		if (!may_overlap(engine, &first, candidate[k], to_double(contact))) continue;
-		double depth = overlap_depth(engine, &first, candidate[k], contact);
+		double depth = overlap_depth(engine, &first, candidate[k], contact_distance(engine, i, j));
 		if (!(depth > 0)) continue;
 		if (found < room) list[found] = (struct touchstone_overlap){engine->itinerary[j].id, depth};
 		found++;

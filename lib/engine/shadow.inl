@@ -9,9 +9,9 @@ static double since_base(const struct touchstone_engine *engine, double page, do
 }
 
 /* Renews the shadow of a particle for the time of the search. */
-static void cast_shadow(struct touchstone_engine *engine, uint32_t i)
+static void cast_shadow(const struct touchstone_engine *engine, uint32_t i)
 {
-	struct shadows *shadows = &engine->shadows;
+	const struct shadows *shadows = &engine->shadows;
 	if (!shadows->shadow) return;
 	const struct body *body = &engine->body[i];
 	const struct place *place = &engine->place[i];
@@ -33,13 +33,29 @@ static void keep_time(struct touchstone_engine *engine)
 	double clock = engine->page_length < INFINITY ? engine->page_length : moment_double(engine->now);
 	shadows->now = since_base(engine, engine->now.page, to_double(engine->now.time));
 	sieve->now = sieve->span = (float)shadows->now;
-	sieve->age = (float)(shadows->age + shadows->now);
+	shadows->oldest = (float)(shadows->age + shadows->now);
 	clock *= shadows->per_time;
-	sieve->drift = (float)(16 * (sieve->roundoff * sieve->age + 0x1p-53 * (sieve->age + clock)));
-	sieve->late = (float)(4 * (sieve->roundoff + 0x1p-53) * (sieve->age + clock));
+	double rounded = (sieve->roundoff + 0x1p-53) * (shadows->oldest + clock);
+	sieve->drift = (float)(8 * rounded);
+	sieve->late = (float)(4 * rounded);
 }
 
-static const double shadows_last = 64; /* units of time: the error of a time in binary32 grows as long */
+/* How long ago at most the last events of those were that search. Where time goes back, others may have had theirs
+ * after now. */
+static float age_of(const struct touchstone_engine *engine, const uint32_t *particle, int particles)
+{
+	const struct shadows *shadows = &engine->shadows;
+	double age = 0;
+	if (engine->method->policy & (POLICY_BACKWARDS | POLICY_SEARCH)) return shadows->oldest;
+	for (int p = 0; p < particles; p++) {
+		const struct body *body = &engine->body[particle[p]];
+		double since = shadows->now - since_base(engine, body->page, to_double(body->time));
+		age = since > age ? since : age;
+	}
+	return (float)(age * (1 + 0x1p-20));
+}
+
+static const double shadows_last = 16; /* units of time: the error of a time in binary32 grows as long */
 
 static double typical_speed(const struct touchstone_engine *engine)
 {
@@ -79,10 +95,12 @@ static void cast_shadows(struct touchstone_engine *engine)
 	struct sieve *sieve = &shadows->sieve;
 	double place = 0;
 	sieve->boxes = 0;
+	sieve->length = 1;
 	for (int axis = 0; axis < 3; axis++) {
 		if (axis < engine->dimensions) place = fmax(place, engine->place_width[axis]);
 		sieve->box[axis] = engine->periodic[axis] ? (float)(engine->box[axis] * shadows->per_length) : 0;
 		sieve->boxes += sieve->box[axis];
+		sieve->length = fmaxf(sieve->length, (float)(1.5 * engine->cell_side[axis] * shadows->per_length));
 	}
 	sieve->roundoff = (float)ldexp(1, -engine->bits);
 	sieve->grain = (float)ldexp(place * shadows->per_length, 1 - engine->bits);
@@ -147,6 +165,7 @@ static void foresee(struct touchstone_engine *engine, const uint32_t *particle, 
 		outlook[p] = outlook_of(engine, particle[p], &forecast[p]);
 	}
 	shadows->sieve.images = images >> ENTRY_BITS;
+	shadows->sieve.age = age_of(engine, particle, particles);
 	shadows->machine->hold(&shadows->sieve, shadows->shadow, outlook, particles);
 	for (int p = 0; p < particles; p++) {
 		forecast[p].first = (uint32_t)outlook[p].first;
@@ -167,6 +186,7 @@ static void sift(struct touchstone_engine *engine, const uint32_t *particle, int
 		search[p] =
 			(struct sieve_search){particle[p], engine->candidate[p], candidates[p], latest_planned(engine, &plan[p])};
 	}
+	shadows->sieve.age = age_of(engine, particle, particles);
 	shadows->machine->pass(&shadows->sieve, shadows->shadow, search, particles);
 	for (int p = 0; p < particles; p++) {
 		candidates[p] = search[p].count;
@@ -178,4 +198,28 @@ static void sift(struct touchstone_engine *engine, const uint32_t *particle, int
 			ahead(&engine->itinerary[other]);
 		}
 	}
+}
+
+/* ------------------------------------------------------------------ who is where */
+
+enum { LOOKED_OVER = 64 };
+
+/* Between which distances up to LOOKED_OVER entries of one particle ought to be, in the shadows' unit; more is read
+ * than counts. */
+struct bounds {
+	uint32_t entry[LOOKED_OVER + 16];
+	float inner[LOOKED_OVER + 16], outer[LOOKED_OVER + 16];
+};
+
+/* Of `count` entries of particle i, whose shadow is as of now, writes the numbers of those that may not be within their
+ * bounds, in their order. */
+static size_t out_of_bounds(const struct touchstone_engine *engine, uint32_t i, const uint32_t *entry,
+							const struct bounds *bounds, size_t count, uint32_t kept[LOOKED_OVER + 16])
+{
+	const struct shadows *shadows = &engine->shadows;
+	struct sieve sieve = shadows->sieve;
+	struct held held = {entry, bounds->outer, bounds->inner};
+	sieve.images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
+	sieve.age = age_of(engine, &i, 1);
+	return shadows->machine->check(&sieve, shadows->shadow, i, &held, count, kept);
 }

@@ -62,7 +62,7 @@ INLINE struct own own_of(const struct sieve *sieve, const struct shadow *shadow)
 {
 	const float *x = shadow->position, *v = shadow->velocity, n = sieve->roundoff;
 	float size = fabsf(x[0]) + fabsf(x[1]) + fabsf(x[2]);
-	float length = shadow->radius > 0x1p-9f ? 2 * shadow->radius : 1;
+	float length = sieve->length;
 	return (struct own){.shadow = *shadow,
 						.speed = fabsf(v[0]) + fabsf(v[1]) + fabsf(v[2]),
 						.g_fixed = 8 * u * (sieve->boxes + size) + sieve->grain,

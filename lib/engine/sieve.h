@@ -24,7 +24,7 @@
  * numbers. Whether products and sums are fused does not matter.
  *
  * What is reckoned with is linear in r.r, which is known last: R^2 is at most 3 r.r, and 2 R at most L + R^2 / L for
- * any length L, here the particle's own diameter (1 where it has none to speak of), so that
+ * any length L, best for one as large as most R, so that
  *
  *     E_c  <=  g (2 L + 4 g) + (32 u + 64 n) s^2 + 64 n (S age)^2  +  r.r (6 g / L + 144 u + 192 n)
  *     E_b  <=  S (2 g + (10 u + 8 n) L + 16 n S age + S late)      +  r.r S (30 u + 24 n) / L
@@ -48,9 +48,10 @@ struct shadow {              /* half a cache line */
 struct sieve {
 	float box[3];   /* extent of the periodic axes */
 	float boxes;    /* their sum */
+	float length;   /* about how far most pairs are: L */
 	float now;      /* time of the search */
 	float span;     /* no time is larger: `now` itself */
-	float age;      /* no particle's last event is longer ago */
+	float age;      /* no last event of a particle that searches is longer ago */
 	float roundoff; /* of the working arithmetic: n */
 	float grain;    /* error of its differences of places */
 	float drift;    /* error of its flights, as a time */

@@ -107,6 +107,7 @@ struct shadows {
 	double per_length, per_time, per_speed; /* units, all powers of two */
 	double now;                             /* time of the search, since the base */
 	double age;                             /* of the oldest last event, at the base */
+	float oldest;                           /* and now */
 };
 
 /* Neighbour lists: engine/neighbours.inl. */

@@ -39,34 +39,16 @@ static void tell_test(struct touchstone_engine *engine, uint32_t i, uint32_t ent
 
 /* ------------------------------------------------------------------ what shadows say */
 
-enum { HEARD = 64 };
-
-/* Up to HEARD entries of one particle, and the distances between which there is nothing to tell of them. */
-struct bounds {
-	uint32_t entry[HEARD + 16];
-	float inner[HEARD + 16], outer[HEARD + 16];
-};
-
-/* Of `count` entries of particle i, writes the numbers of those that may not be within their bounds, in their order. */
-static size_t out_of_bounds(struct touchstone_engine *engine, uint32_t i, const uint32_t *entry,
-							const struct bounds *bounds, size_t count, uint32_t kept[HEARD + 16])
-{
-	struct shadows *shadows = &engine->shadows;
-	struct held held = {entry, bounds->outer, bounds->inner};
-	shadows->sieve.images = cells_at_border(&engine->cells, engine->itinerary[i].cell);
-	return shadows->machine->check(&shadows->sieve, shadows->shadow, i, &held, count, kept);
-}
-
 /* Whether all that particle i has captured is surely so near that it counts by its distance alone, as it will be unless
  * the method misses events. */
 static bool keeps_captured(struct touchstone_engine *engine, uint32_t i)
 {
-	uint32_t kept[HEARD + 16], count, some;
+	uint32_t kept[LOOKED_OVER + 16], count, some;
 	const struct pair_state *captured = pairs_of(&engine->pairs, i, &count);
 	struct bounds bounds;
 	bool keeps = true;
 	for (; count && keeps; captured += some, count -= some) {
-		some = count < HEARD ? count : HEARD;
+		some = count < LOOKED_OVER ? count : LOOKED_OVER;
 		for (uint32_t k = 0; k < some + 16; k++) {
 			const struct potential *potential =
 				potential_between(engine, i, entry_particle(captured[k < some ? k : 0].entry));
@@ -94,7 +76,7 @@ static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *part
 
 /* Some of those that particle i is tested against, and how many of them are in a state. */
 struct tests {
-	uint32_t count, captured, state[HEARD];
+	uint32_t count, captured, state[LOOKED_OVER];
 	struct bounds bounds;
 };
 
@@ -119,7 +101,7 @@ static inline void add_test(const struct touchstone_engine *engine, uint32_t i, 
 /* Tells what there is to tell of them, and counts the others that are in a state. */
 static void tell_some(struct touchstone_engine *engine, uint32_t i, struct tests *tests)
 {
-	uint32_t kept[HEARD + 16], count = tests->count;
+	uint32_t kept[LOOKED_OVER + 16], count = tests->count;
 	size_t left = count;
 	engine->listener->tests += tests->captured;
 	tests->count = tests->captured = 0;
@@ -158,7 +140,7 @@ static void tell_tests_of(struct touchstone_engine *engine, uint32_t i, const ui
 	for (size_t k = 0; k < candidates; k++) {
 		if (entry_particle(list[k]) == but) continue;
 		add_test(engine, i, list[k], marked_state(engine, i, list[k], captured), &tests);
-		if (tests.count == HEARD) tell_some(engine, i, &tests);
+		if (tests.count == LOOKED_OVER) tell_some(engine, i, &tests);
 	}
 	tell_some(engine, i, &tests);
 	for (uint32_t k = 0; k < count; k++) engine->captured[entry_particle(captured[k].entry)] = 0;

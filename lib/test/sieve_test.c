@@ -69,9 +69,10 @@ static struct sieve sieve_at(double box, double now)
 {
 	return (struct sieve){.box = {(float)box, (float)box, (float)box},
 						  .boxes = 3 * (float)box,
+						  .length = (float)between(0.5, 8),
 						  .now = (float)now,
 						  .span = (float)now,
-						  .age = (float)now,
+						  .age = 0, /* the one that searches has just had an event */
 						  .roundoff = 0x1p-53f,
 						  .drift = 0x1p-40f,
 						  .late = 0x1p-40f};
@@ -362,7 +363,7 @@ static void keeps_what_is_doubtful(void **state)
 		{{{0, 0, 0}, {1e-30, 0, 0}, 0, 0.5}, {{3, 0.3, 0}, {-1e-30, 0, 0}, 0, 0.5}}}; /* and below */
 	struct shadow *shadow = aligned_alloc(64, ROOM * sizeof *shadow);
 	assert_non_null(shadow);
-	struct sieve sieve = {.age = 1, .roundoff = 0x1p-53f, .by_order = true};
+	struct sieve sieve = {.length = 1, .age = 1, .roundoff = 0x1p-53f, .by_order = true};
 	const struct sieve_machine *machine;
 	for (size_t m = 0; (machine = sieve_machine(m)); m++)
 		for (size_t p = 0; p < sizeof pair / sizeof *pair; p++) {
