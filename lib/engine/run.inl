@@ -191,7 +191,7 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 				look_over(engine);
 				continue;
 			}
-			if (engine->shadows.now > shadows_last) cast_shadows(engine);
+			if (engine->shadows.now > shadows_last(engine)) cast_shadows(engine);
 		}
 		struct entry entry = agenda->heap[0];
 		uint32_t i = entry.note.particle;

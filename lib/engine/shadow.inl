@@ -55,7 +55,12 @@ static float age_of(const struct touchstone_engine *engine, const uint32_t *part
 	return (float)(age * (1 + 0x1p-20));
 }
 
-static const double shadows_last = 16; /* units of time: the error of a time in binary32 grows as long */
+/* Units of time: the error of a time in binary32 grows as long, and so does, where numbers are coarse, what is not known
+ * of how long ago last events were. */
+static double shadows_last(const struct touchstone_engine *engine)
+{
+	return engine->bits < 32 ? 16 : 64;
+}
 
 static double typical_speed(const struct touchstone_engine *engine)
 {
