@@ -2,7 +2,8 @@
  * can hold: 64 bits a limb. The exponent range is MPFR's own.
  *
  * A number holds its limbs and no pointer, so that it is copied by assignment and needs neither init nor clear.
- * Before each operation the header that MPFR works with is laid over the limbs (MPFR manual, "Custom Interface");
+ * Before each operation the header that MPFR works with is laid over the limbs (MPFR manual, "Custom Interface", whose
+ * macros write the same four fields, but ask of what kind the number is; that would cost a tenth of a run's time);
  * nothing is allocated. All bytes zero is a NaN. */
 #ifndef NUM_MPFR_H
 #define NUM_MPFR_H
@@ -19,9 +20,9 @@
 _Static_assert(GMP_NUMB_BITS == 64, "limbs must be of 64 bits");
 
 typedef struct {
-	mpfr_exp_t exponent;
-	int kind;                   /* MPFR's: NaN, infinity, zero or regular, negative for a negative number */
+	uint64_t mark;              /* MPFR's exponent, counted from the one that it has for NaN: num_mark */
 	int precision;              /* bits of this number */
+	int sign;                   /* 1 or -1 */
 	mp_limb_t limbs[NUM_LIMBS]; /* only those that the precision asks for are set, and only in a regular number */
 } num;
 
@@ -46,25 +47,49 @@ static inline int num_bits(void)
 	return num_precision;
 }
 
+static inline uint64_t num_mark(mpfr_exp_t exponent)
+{
+	return (uint64_t)exponent - (uint64_t)__MPFR_EXP_NAN;
+}
+
+static inline mpfr_exp_t num_exponent(num x)
+{
+	return (mpfr_exp_t)(x.mark + (uint64_t)__MPFR_EXP_NAN);
+}
+
+/* Marks next to each other stand for zero (which comes before 0, for NaN), infinity, and from there on what has a
+ * significand. */
+static inline bool num_zero(num x)
+{
+	return x.mark + 1 == 0;
+}
+
+static inline bool num_regular(num x)
+{
+	return x.mark + 1 > 2;
+}
+
 /* Lays MPFR's header over a number, which must outlive it. */
 static inline void num_expose(mpfr_ptr header, num *number)
 {
-	mpfr_custom_init_set(header, number->kind, number->exponent, number->precision, number->limbs);
+	header->_mpfr_prec = number->precision;
+	header->_mpfr_sign = number->sign;
+	header->_mpfr_exp = num_exponent(*number);
+	header->_mpfr_d = number->limbs;
 }
 
 /* The same over a number that is about to be computed. */
 static inline void num_expose_result(mpfr_ptr header, num *number)
 {
+	*header = (__mpfr_struct){num_precision, 1, __MPFR_EXP_NAN, number->limbs};
 	number->precision = num_precision;
-	mpfr_custom_init(number->limbs, num_precision);
-	mpfr_custom_init_set(header, MPFR_NAN_KIND, 0, num_precision, number->limbs);
 }
 
 /* Takes what MPFR left in the header of a result; the limbs are in place already. */
 static inline void num_collect(num *number, mpfr_srcptr header)
 {
-	number->kind = mpfr_custom_get_kind(header);
-	number->exponent = mpfr_custom_get_exp(header);
+	number->sign = header->_mpfr_sign;
+	number->mark = num_mark(header->_mpfr_exp);
 }
 
 typedef int num_operation(mpfr_ptr result, mpfr_srcptr a, mpfr_srcptr b, mpfr_rnd_t rounding);
@@ -86,19 +111,19 @@ static inline num num_apply(num_operation *operation, num *a, num *b)
 static inline num from_double(double value)
 {
 	num result;
-	mpfr_t header;
-	num_expose_result(header, &result);
+	result.precision = num_precision;
 	uint64_t word;
 	memcpy(&word, &value, sizeof word);
 	int biased = (int)(word >> 52 & 0x7ff), limbs = (result.precision + 63) / 64;
 	if (word << 1 == 0 || (biased > 0 && biased < 0x7ff && result.precision >= 53)) {
-		result.kind = word << 1 == 0 ? MPFR_ZERO_KIND : MPFR_REGULAR_KIND;
-		if (word >> 63) result.kind = -result.kind;
-		result.exponent = biased - 1022;
+		result.sign = word >> 63 ? -1 : 1;
+		result.mark = num_mark(word << 1 == 0 ? __MPFR_EXP_ZERO : biased - 1022);
 		for (int l = 0; l < limbs - 1; l++) result.limbs[l] = 0;
 		result.limbs[limbs - 1] = UINT64_C(1) << 63 | word << 11;
 		return result;
 	}
+	mpfr_t header;
+	num_expose_result(header, &result);
 	mpfr_set_d(header, value, MPFR_RNDN);
 	num_collect(&result, header);
 	return result;
@@ -107,20 +132,20 @@ static inline num from_double(double value)
 /* Rounded to nearest, ties to even, once: to a subnormal double as well. */
 static inline double to_double(num x)
 {
-	bool regular = x.kind == MPFR_REGULAR_KIND || x.kind == -MPFR_REGULAR_KIND;
-	if (regular && x.exponent > -1021 && x.exponent < 1024) { /* far from both ends of a double's range */
+	mpfr_exp_t exponent = num_exponent(x);
+	if (exponent > -1021 && exponent < 1024) { /* far from both ends of a double's range */
 		int limbs = (x.precision + 63) / 64;
 		uint64_t first = x.limbs[limbs - 1], more = 0;
 		for (int l = 0; l < limbs - 1; l++) more |= x.limbs[l];
 		uint64_t kept = first >> 11, rest = first << 53 | (more != 0), half = UINT64_C(1) << 63;
 		kept += rest > half || (rest == half && (kept & 1));
-		uint64_t word = ((uint64_t)(x.exponent + 1021) << 52) + kept; /* the leading bit counts one exponent up */
-		if (x.kind < 0) word |= half;
+		uint64_t word = ((uint64_t)(exponent + 1021) << 52) + kept; /* the leading bit counts one exponent up */
+		if (x.sign < 0) word |= half;
 		double value;
 		memcpy(&value, &word, sizeof value);
 		return value;
 	}
-	if (x.kind == MPFR_ZERO_KIND) return 0;
+	if (num_zero(x)) return x.sign < 0 ? -0.0 : 0.0;
 	mpfr_t header;
 	num_expose(header, &x);
 	return mpfr_get_d(header, MPFR_RNDN);
@@ -160,21 +185,24 @@ static inline num root(num a)
 /* Exact, at the precision that the number has. */
 static inline num negated(num a)
 {
-	a.kind = -a.kind;
+	a.sign = -a.sign;
 	return a;
 }
 
 static inline num magnitude(num a)
 {
-	a.kind = a.kind < 0 ? -a.kind : a.kind;
+	a.sign = a.sign < 0 ? -a.sign : a.sign;
 	return a;
 }
 
 /* Whether a < b; false when either is not a number. */
 static inline bool less(num a, num b)
 {
-	if (b.kind == MPFR_ZERO_KIND) return a.kind == -MPFR_REGULAR_KIND || a.kind == -MPFR_INF_KIND;
-	if (a.kind == MPFR_ZERO_KIND) return b.kind == MPFR_REGULAR_KIND || b.kind == MPFR_INF_KIND;
+	if (num_zero(b)) return a.sign < 0 && a.mark + 1 > 1; /* and is no NaN */
+	if (num_zero(a)) return b.sign > 0 && b.mark + 1 > 1;
+	bool regular = num_regular(a) && num_regular(b);
+	if (regular && a.sign != b.sign) return a.sign < b.sign;
+	if (regular && a.mark != b.mark) return (a.mark < b.mark) == (a.sign > 0);
 	mpfr_t header_a, header_b;
 	num_expose(header_a, &a);
 	num_expose(header_b, &b);
@@ -183,7 +211,7 @@ static inline bool less(num a, num b)
 
 static inline bool is_finite(num a)
 {
-	return a.kind != MPFR_NAN_KIND && a.kind != MPFR_INF_KIND && a.kind != -MPFR_INF_KIND;
+	return num_regular(a) || num_zero(a);
 }
 
 /* To be kept: a number is its exponent, its kind and as many limbs as its precision asks for; where it has no
@@ -202,24 +230,29 @@ static inline int num_words(void)
 
 static inline void to_words(num x, uint64_t *words)
 {
-	bool regular = x.kind == MPFR_REGULAR_KIND || x.kind == -MPFR_REGULAR_KIND;
-	words[0] = regular ? (uint64_t)x.exponent : 0;
-	words[1] = (uint64_t)x.kind;
+	int kind = num_regular(x) ? MPFR_REGULAR_KIND
+			   : num_zero(x)  ? MPFR_ZERO_KIND
+			   : x.mark       ? MPFR_INF_KIND
+							  : MPFR_NAN_KIND;
+	bool regular = kind == MPFR_REGULAR_KIND;
+	words[0] = regular ? (uint64_t)num_exponent(x) : 0;
+	words[1] = (uint64_t)(int64_t)(kind * x.sign);
 	for (int l = 0; l < num_limbs(); l++) words[2 + l] = regular ? x.limbs[l] : 0;
 }
 
 /* False when the words are those of no number of this arithmetic. */
 static inline bool from_words(const uint64_t *words, num *x)
 {
+	static const mpfr_exp_t without[] = {__MPFR_EXP_NAN, __MPFR_EXP_INF, __MPFR_EXP_ZERO}; /* by kind */
 	int64_t exponent = (int64_t)words[0], kind = (int64_t)words[1];
 	int limbs = num_limbs(), unused = limbs * GMP_NUMB_BITS - num_precision;
-	bool regular = kind == MPFR_REGULAR_KIND || kind == -MPFR_REGULAR_KIND;
 	if (kind < -MPFR_REGULAR_KIND || kind > MPFR_REGULAR_KIND) return false;
 	x->precision = num_precision;
-	x->kind = (int)kind;
-	x->exponent = exponent;
+	x->sign = kind < 0 ? -1 : 1;
+	kind *= x->sign;
+	x->mark = num_mark(kind == MPFR_REGULAR_KIND ? exponent : without[kind]);
 	for (int l = 0; l < limbs; l++) x->limbs[l] = words[2 + l];
-	if (!regular) return exponent == 0;
+	if (kind != MPFR_REGULAR_KIND) return exponent == 0;
 	bool in_range = exponent >= mpfr_get_emin() && exponent <= mpfr_get_emax();
 	return in_range && x->limbs[limbs - 1] >> 63 && !(x->limbs[0] & ((UINT64_C(1) << unused) - 1));
 }
@@ -247,7 +280,7 @@ static inline num product_rest(num a, num b, num product)
 /* x = f 2^exponent with 1/2 <= |f| < 1; 0 for zero. */
 static inline long exponent_of(num x)
 {
-	return x.kind == MPFR_REGULAR_KIND || x.kind == -MPFR_REGULAR_KIND ? x.exponent : 0;
+	return num_regular(x) ? num_exponent(x) : 0;
 }
 
 /* x 2^exponent. */
