@@ -69,6 +69,7 @@ extern const struct unit THIS_UNIT;
 #include "method/positional.inl"
 #include "method/stretch.inl"
 
+#include "engine/defer.inl"
 #include "engine/shadow.inl"
 
 #include "engine/neighbours.inl"

@@ -209,6 +209,9 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 			} else {
 				look_again(engine, i);
 			}
+		} else if (open_of(engine, i) > 0) {
+			heap_drop(agenda, engine);
+			settle_now(engine, i);
 		} else if (engine->events == last) {
 			break;
 		} else if (engine->itinerary[i].meets == TOUCHSTONE_CROSSING) {

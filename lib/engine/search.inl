@@ -59,7 +59,7 @@ static inline void consider_moment(struct touchstone_engine *engine, uint32_t i,
 			rank_of(engine, i, plan->partner, plan->meets) <= rank_of(engine, i, partner, meets))
 			return;
 	}
-	*plan = (struct plan){moment, partner, meets, true};
+	*plan = (struct plan){moment, partner, meets, true, 0};
 }
 
 static num early_meeting(const struct touchstone_engine *engine, struct balls *balls, struct quadratic *f);
@@ -127,6 +127,7 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 	struct itinerary *itinerary = &engine->itinerary[i];
 	engine->itinerary[i].meets = plan->meets;
 	if (!plan->fresh) return;
+	if (!(plan->open > 0)) forget_open(engine, i);
 	itinerary->time = plan->moment.time;
 	itinerary->page = plan->moment.page;
 	itinerary->partner = plan->partner;
@@ -142,6 +143,8 @@ static void consider_listed(struct touchstone_engine *engine, uint32_t i, const 
 							struct plan *plan);
 static size_t without_captured(struct touchstone_engine *engine, uint32_t i, uint32_t *candidate, size_t candidates);
 static void consider_virtual_walls(struct touchstone_engine *engine, uint32_t i, struct plan *plan);
+static bool stale(const struct touchstone_engine *engine, uint32_t i);
+static void schedule(struct touchstone_engine *engine, uint32_t i);
 static bool sieve_listens(struct touchstone_engine *engine, const uint32_t *particle, int particles);
 static void tell_tests(struct touchstone_engine *engine, const uint32_t *particle, uint32_t *const list[2],
 					   const size_t candidates[2], int particles);
@@ -167,7 +170,10 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 	bool captures = engine->captured;
 	if (captures && engine->neighbours.skin == 0)
 		for (int p = 0; p < particles; p++) pairs_ahead(&engine->pairs, particle[p]);
-	for (int p = 0; p < particles; p++) plan[p] = (struct plan){.meets = MEETS_NOTHING};
+	for (int p = 0; p < particles; p++) {
+		plan[p] = (struct plan){.meets = MEETS_NOTHING};
+		forget_open(engine, particle[p]);
+	}
 	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
 	for (int p = 0; engine->side && p < particles; p++) consider_virtual_walls(engine, particle[p], &plan[p]);
 	if (engine->neighbours.skin > 0) {
@@ -197,17 +203,37 @@ static void predict(struct touchstone_engine *engine, uint32_t i)
 	predict_all(engine, &i, 1);
 }
 
+/* When a particle meets its partner, if that was deferred. */
+static void settle(struct touchstone_engine *engine, uint32_t i, struct plan *plan)
+{
+	const uint32_t partner = engine->itinerary[i].partner;
+	*plan = (struct plan){.meets = MEETS_NOTHING};
+	forget_open(engine, i);
+	consider_pairs(engine, i, &partner, 1, plan);
+}
+
+/* The same for one whose turn has come. */
+static void settle_now(struct touchstone_engine *engine, uint32_t i)
+{
+	struct plan plan;
+	settle(engine, i, &plan);
+	plan_keep(engine, i, &plan);
+	schedule(engine, i);
+}
+
 /* A particle has come into a cell by a step from one next to it: looks only where it did not look from there. What it
  * meant to do stands unless something comes before it; if that is stale, its partner's own search has seen what
  * replaced it. */
 static void predict_entered(struct touchstone_engine *engine, uint32_t i, const int step[3])
 {
 	const struct itinerary *itinerary = &engine->itinerary[i];
-	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, engine->itinerary[i].meets, false};
+	struct plan plan = {
+		{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false, open_of(engine, i)};
 	uint32_t *list = engine->candidate[0];
 	size_t candidates = cells_entered(&engine->cells, engine->itinerary[i].cell, step, i, list);
 	sift(engine, &i, 1, &candidates, &plan);
 	list_ahead(engine);
+	if (candidates && plan.open > 0 && !stale(engine, i)) settle(engine, i, &plan);
 	if (engine->captured) candidates = without_captured(engine, i, list, candidates);
 	consider_pairs(engine, i, list, candidates, &plan);
 	plan_keep(engine, i, &plan);
@@ -217,7 +243,7 @@ static void predict_entered(struct touchstone_engine *engine, uint32_t i, const 
 static void predict_fresh(struct touchstone_engine *engine, uint32_t i, size_t fresh)
 {
 	const struct itinerary *itinerary = &engine->itinerary[i];
-	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false};
+	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false, 0};
 	uint32_t count;
 	const struct pair_state *listed = pairs_of(&engine->neighbours.pairs, i, &count);
 	consider_listed(engine, i, listed + count - fresh, (uint32_t)fresh, &plan);
@@ -236,6 +262,7 @@ static struct entry entry_of(const void *context, struct note note)
 	const struct itinerary *itinerary = &engine->itinerary[note.particle];
 	if (itinerary->next != NEXT_IS_PHYSICAL)
 		return (struct entry){.time = from_double(itinerary->leaves), .note = note};
+	if (open_of(engine, note.particle) > 0) return (struct entry){.time = itinerary->time, .note = note};
 	return (struct entry){itinerary->time, note, itinerary->partner, UINT32_C(1) + itinerary->meets};
 }
 

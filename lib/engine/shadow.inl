@@ -55,8 +55,8 @@ static float age_of(const struct touchstone_engine *engine, const uint32_t *part
 	return (float)(age * (1 + 0x1p-20));
 }
 
-/* Units of time: the error of a time in binary32 grows as long, and so does, where numbers are coarse, what is not known
- * of how long ago last events were. */
+/* Units of time: the error of a time in binary32 grows as long, and so does, where numbers are coarse, what is not
+ * known of how long ago last events were. */
 static double shadows_last(const struct touchstone_engine *engine)
 {
 	return engine->bits < 32 ? 16 : 64;
@@ -119,6 +119,7 @@ static float latest_planned(const struct touchstone_engine *engine, const struct
 	const struct sieve *sieve = &engine->shadows.sieve;
 	if (!sieve->by_order || plan->meets == MEETS_NOTHING) return INFINITY;
 	double latest = since_base(engine, plan->moment.page, to_double(plan->moment.time)) - engine->shadows.now;
+	latest += (double)plan->open * engine->shadows.per_time;
 	return (float)(latest * (latest > 0 ? 1.0001 : 1) + 0x1p-20 + sieve->late);
 }
 
@@ -178,9 +179,12 @@ static void foresee(struct touchstone_engine *engine, const uint32_t *particle, 
 	}
 }
 
-/* Of the entries listed for one or two particles, keeps those that they may meet before their plans. */
+static bool defer(struct touchstone_engine *engine, uint32_t i, const struct sieve_search *left, struct plan *plan);
+
+/* Of the entries listed for one or two particles, keeps those that they may meet before their plans, unless there is
+ * one that can be planned for as it is. */
 static void sift(struct touchstone_engine *engine, const uint32_t *particle, int particles, size_t *candidates,
-				 const struct plan *plan)
+				 struct plan *plan)
 {
 	struct shadows *shadows = &engine->shadows;
 	if (!shadows->shadow) return;
@@ -188,13 +192,16 @@ static void sift(struct touchstone_engine *engine, const uint32_t *particle, int
 	shadows->sieve.images = false;
 	for (int p = 0; p < particles; p++) {
 		shadows->sieve.images |= cells_at_border(&engine->cells, engine->itinerary[particle[p]].cell);
-		search[p] =
-			(struct sieve_search){particle[p], engine->candidate[p], candidates[p], latest_planned(engine, &plan[p])};
+		search[p] = (struct sieve_search){.self = particle[p],
+										  .entry = engine->candidate[p],
+										  .count = candidates[p],
+										  .latest = latest_planned(engine, &plan[p])};
 	}
 	shadows->sieve.age = age_of(engine, particle, particles);
 	shadows->machine->pass(&shadows->sieve, shadows->shadow, search, particles);
 	for (int p = 0; p < particles; p++) {
 		candidates[p] = search[p].count;
+		if (shadows->sieve.timed && defer(engine, particle[p], &search[p], &plan[p])) candidates[p] = 0;
 		/* Mostly one, and seldom more than two. A loop over so many as there are would have to be guessed. */
 		for (int k = 0; k < 2; k++) {
 			uint32_t other = entry_particle(engine->candidate[p][k]);

@@ -158,9 +158,21 @@ struct progress {
 	size_t kept;
 };
 
+/* When the last of those that are kept meets. */
+INLINE void tell_time(struct sieve_search *search, const struct meeting *meeting, flags kept)
+{
+	float low[LANES], high[LANES];
+	if (!kept) return;
+	memcpy(low, &meeting->low, sizeof low);
+	memcpy(high, &meeting->high, sizeof high);
+	int last = 31 - __builtin_clz(kept);
+	search->from = low[last];
+	search->by = meeting->sure >> last & 1 ? high[last] : INFINITY;
+}
+
 /* The next sixteen of one search, or of two: step by step together, since each step waits for the one before it and not
  * for those of the other. */
-INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, const struct sieve_search *search,
+INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
 					  struct progress *progress, int searches, size_t at, const struct steps *step)
 {
 	const lanes zero = {0}, never = zero + INFINITY;
@@ -187,6 +199,7 @@ INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, co
 		flags late = step->less(zero + progress[k].latest, meeting[k].low);
 		out[k] |= sieve->heard > 0 ? late & unheard(sieve, &others[k], square[k], step) : late;
 	}
+	for (int k = 0; k < searches && sieve->timed; k++) tell_time(&search[k], &meeting[k], ~out[k] & all_lanes);
 	for (int k = 0; k < searches; k++)
 		progress[k].kept += step->pack(~out[k] & all_lanes, search[k].entry + at, search[k].entry + progress[k].kept);
 }

@@ -56,6 +56,7 @@ struct plan {
 	uint32_t partner;
 	uint8_t meets; /* enum touchstone_kind, or MEETS_NOTHING */
 	bool fresh;    /* found in this search */
+	float open;    /* by how much later it may be: where it is deferred (engine/defer.inl) */
 };
 
 struct touchstone_engine;
@@ -140,6 +141,7 @@ struct touchstone_engine {
 	uint32_t count;
 	struct body *body;
 	struct place *place;
+	float *open; /* per particle, or NULL: by how much its meeting may be later (engine/defer.inl) */
 	struct itinerary *itinerary;
 	uint32_t *index_of; /* of a particle's number in the scene */
 

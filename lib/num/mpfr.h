@@ -203,6 +203,8 @@ static inline bool less(num a, num b)
 	bool regular = num_regular(a) && num_regular(b);
 	if (regular && a.sign != b.sign) return a.sign < b.sign;
 	if (regular && a.mark != b.mark) return (a.mark < b.mark) == (a.sign > 0);
+	mp_limb_t first = a.limbs[(a.precision - 1) / 64], other = b.limbs[(b.precision - 1) / 64];
+	if (regular && first != other) return (first < other) == (a.sign > 0);
 	mpfr_t header_a, header_b;
 	num_expose(header_a, &a);
 	num_expose(header_b, &b);

@@ -162,6 +162,29 @@ static void many_particles_are_searched_alike(void **state)
 	assert_int_equal(cells.digest, unsieved.digest);
 }
 
+/* Meetings whose time is asked for only when their turn comes (engine/defer.inl) are those that are found at once
+ * without a sieve. */
+static void deferring_does_not_matter(void **state)
+{
+	(void)state;
+	static const char *const arithmetics[] = {"mpfr:53", "mpfr:113", "binary128"};
+	struct random_state random = random_seed(SEED + 1);
+	for (int trial = 0; trial < (brief ? 6 : 15); trial++) {
+		struct scene_recipe recipe =
+			gas(2 + trial % 2, 30 + random_bits(&random) % 100, 0.02 + 0.5 * random_uniform(&random));
+		recipe.form = trial % 5 ? TOUCHSTONE_RELATIVE : TOUCHSTONE_ABSOLUTE;
+		if (trial % 3 == 0) recipe.restitution.coefficient = 0.9;
+		if (trial % 4 == 0) recipe.species_count = 2, recipe.species = two_sizes, recipe.density *= 0.6;
+		const char *arithmetic = arithmetics[trial % 3];
+		recipe.search = TOUCHSTONE_UNSIEVED;
+		struct touchstone_status unsieved = run(&recipe, arithmetic, "stable", 1500, INFINITY);
+		recipe.search = TOUCHSTONE_CELLS;
+		struct touchstone_status deferred = run(&recipe, arithmetic, "stable", 1500, INFINITY);
+		assert_int_equal(deferred.events, 1500);
+		assert_int_equal(deferred.digest, unsieved.digest);
+	}
+}
+
 static void threads_do_not_matter(void **state)
 {
 	(void)state;
@@ -427,6 +450,7 @@ int main(void)
 		cmocka_unit_test(many_particles_are_searched_alike),
 		cmocka_unit_test(pieces_do_not_matter),
 		cmocka_unit_test(cold_gases_keep_their_order),
+		cmocka_unit_test(deferring_does_not_matter),
 		cmocka_unit_test(threads_do_not_matter),
 		cmocka_unit_test(equal_precision_in_other_scenes),
 		cmocka_unit_test(equal_precision_means_equal_events),
