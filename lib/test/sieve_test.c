@@ -89,9 +89,10 @@ static void two_at_once(const struct sieve_machine *machine, const struct sieve 
 	memset(second, 0, sizeof second);
 	memcpy(second, entry + skipped, (ROOM - skipped) * sizeof *second);
 	memcpy(part, second, sizeof part);
-	struct sieve_search one = {0, part, count - skipped, alone->latest};
+	struct sieve_search one = {.entry = part, .count = count - skipped, .latest = alone->latest};
 	machine->pass(sieve, shadow, &one, 1);
-	struct sieve_search both[2] = {{0, first, count, alone->latest}, {0, second, count - skipped, alone->latest}};
+	struct sieve_search both[2] = {{.entry = first, .count = count, .latest = alone->latest},
+								   {.entry = second, .count = count - skipped, .latest = alone->latest}};
 	bool other_way = between(0, 1) < 0.5;
 	if (other_way) {
 		struct sieve_search whole = both[0];
@@ -144,6 +145,7 @@ static void one_crowd(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_al
 	struct sieve sieve = sieve_at(box, now);
 	sieve.heard = reach;
 	sieve.by_order = between(0, 1) < 0.8;
+	sieve.timed = between(0, 1) < 0.5;
 	sieve.images = images;
 	double limit = between(0, 1) < 0.3 ? between(0, 2) / speed : INFINITY;
 	float latest = sieve.by_order ? (float)(limit * 1.001) : INFINITY;
@@ -151,7 +153,7 @@ static void one_crowd(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_al
 	for (size_t m = 0; (machine = sieve_machine(m)); m++) {
 		for (uint32_t i = 0; i <= count; i++) cast(machine, &shadow[i], &particle[i]);
 		memcpy(kept, entry, sizeof kept);
-		struct sieve_search search = {0, kept, count, latest};
+		struct sieve_search search = {.entry = kept, .count = count, .latest = latest};
 		machine->pass(&sieve, shadow, &search, 1);
 		size_t left = search.count;
 		assert_true(left <= count);
@@ -169,6 +171,13 @@ static void one_crowd(struct shadow *shadow, uint64_t *all, uint64_t *kept_in_al
 			}
 		}
 		assert_int_equal(at, left);
+		if (!sieve.timed || !left || !judges) continue;
+		long double last = wait[entry_particle(kept[left - 1]) - 1];
+		bool early = last < (long double)search.from - 0x1p-40L,
+			 late = search.by < INFINITY && last > (long double)search.by;
+		if (early || late)
+			fail_msg("%s has a meeting from %g to %g that is at %Lg", machine->name, (double)search.from,
+					 (double)search.by, last);
 	}
 }
 
@@ -370,7 +379,7 @@ static void keeps_what_is_doubtful(void **state)
 			uint32_t entry[ROOM] = {1};
 			cast(machine, &shadow[0], &pair[p][0]);
 			cast(machine, &shadow[1], &pair[p][1]);
-			struct sieve_search search = {0, entry, 1, INFINITY};
+			struct sieve_search search = {.entry = entry, .count = 1, .latest = INFINITY};
 			machine->pass(&sieve, shadow, &search, 1);
 			assert_int_equal(search.count, 1);
 		}
