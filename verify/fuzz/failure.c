@@ -36,18 +36,17 @@ struct fuzz_subject fuzz_subject(const struct finder *finder, enum touchstone_sh
 
 /* ---- where it went wrong */
 
+_Static_assert((int)EXACT_STEPS == ORACLE_SIGNS, "a sign for each step");
+
 /* Two bits for each coefficient: 0 is zero, 1 positive, 2 negative. */
-static unsigned branch_of(enum touchstone_shape shape, const double number[TOUCHSTONE_MOST_NUMBERS])
+static unsigned branch_of(struct oracle *oracle, const struct oracle_query *query)
 {
-	struct exact_steps steps;
+	int sign[ORACLE_SIGNS];
 	unsigned branch = 0;
-	exact_steps_init(&steps, shape, number);
-	for (int step = 0; step < EXACT_STEPS; step++) {
-		if (!exact_step_formula(shape, step)) continue;
-		int sign = mpq_sgn(steps.value[step]);
-		branch |= (sign > 0 ? 1u : sign < 0 ? 2u : 0u) << 2 * step;
-	}
-	exact_steps_clear(&steps);
+	oracle_signs(oracle, query, sign);
+	for (int step = 0; step < EXACT_STEPS; step++)
+		if (exact_step_formula((enum touchstone_shape)query->shape, step))
+			branch |= (sign[step] > 0 ? 1u : sign[step] < 0 ? 2u : 0u) << 2 * step;
 	return branch;
 }
 
@@ -108,7 +107,7 @@ bool fuzz_judge(const struct fuzz_subject *subject, struct oracle *oracle, const
 		.answer = {answer},
 		.exact = {exact},
 		.failure = failure,
-		.branch = branch_of(subject->shape, number),
+		.branch = branch_of(oracle, &query),
 		.ulp = ulp,
 	};
 	if (fault) failed->fault = *fault;
@@ -142,7 +141,7 @@ bool fuzz_judge_order(const struct fuzz_subject *subject, struct oracle *oracle,
 		.promised = subject->claims && subject->claim.claim.most_ulp <= 0.5,
 	};
 	memcpy(failed->number, numbers, sizeof failed->number);
-	for (int q = 0; q < 2; q++) failed->branch |= branch_of(subject->shape, numbers[q]) << BRANCH_BITS * q;
+	for (int q = 0; q < 2; q++) failed->branch |= branch_of(oracle, &time[q].query) << BRANCH_BITS * q;
 	return true;
 }
 

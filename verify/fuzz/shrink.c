@@ -14,10 +14,12 @@ enum {
 
 unsigned fuzz_bits(double number)
 {
-	int exponent;
-	if (number == 0) return 0;
-	uint64_t significand = (uint64_t)fabs(ldexp(frexp(number, &exponent), DOUBLE_BITS));
-	return DOUBLE_BITS - (unsigned)__builtin_ctzll(significand);
+	uint64_t bits, hidden = UINT64_C(1) << (DOUBLE_BITS - 1);
+	memcpy(&bits, &number, sizeof bits);
+	uint64_t significand = bits & (hidden - 1);
+	if (bits << 1 >= hidden << 1) significand |= hidden; /* but for zero and the subnormal */
+	if (significand == 0) return 0;
+	return 64 - (unsigned)__builtin_clzll(significand) - (unsigned)__builtin_ctzll(significand);
 }
 
 unsigned fuzz_case_bits(enum touchstone_shape shape, const struct fuzz_case *one)
@@ -28,20 +30,21 @@ unsigned fuzz_case_bits(enum touchstone_shape shape, const struct fuzz_case *one
 	return bits;
 }
 
+/* What makes a case simple, the weightiest first. */
+struct burden {
+	unsigned bits, exponents, signs, questions_differ;
+};
+
 /* One case on its way to a simpler one. */
 struct shrinking {
 	const struct fuzz_subject *subject;
 	struct oracle *oracle;
 	struct fuzz_case best;
-	size_t numbers, all; /* of a question, of the case */
+	struct burden burden; /* of the best */
+	size_t numbers, all;  /* of a question, of the case */
 	unsigned tried, most;
 	unsigned crashes, hangs; /* tries that ended so: dear ones */
 	const volatile int *stop;
-};
-
-/* What makes a case simple, the weightiest first. */
-struct burden {
-	unsigned bits, exponents, signs, questions_differ;
 };
 
 static double *number_of(const struct shrinking *shrinking, struct fuzz_case *one, size_t n)
@@ -82,14 +85,15 @@ static bool offer(struct shrinking *shrinking, struct fuzz_case *candidate)
 {
 	for (size_t n = 0; n < shrinking->all; n++)
 		if (!isfinite(*number_of(shrinking, candidate, n))) return false;
-	struct burden now = burden_of(shrinking, &shrinking->best), then = burden_of(shrinking, candidate);
-	if (!lighter(&then, &now) || at_end(shrinking)) return false;
+	struct burden burden = burden_of(shrinking, candidate);
+	if (!lighter(&burden, &shrinking->burden) || at_end(shrinking)) return false;
 	shrinking->tried++;
 	bool fails = fuzz_try(shrinking->subject, shrinking->oracle, candidate);
 	shrinking->crashes += fails && candidate->failure == FUZZ_CRASH;
 	shrinking->hangs += fails && candidate->failure == FUZZ_HANG;
 	if (!fails || !fuzz_same(candidate, &shrinking->best)) return false;
 	shrinking->best = *candidate;
+	shrinking->burden = burden;
 	return true;
 }
 
@@ -214,6 +218,7 @@ unsigned fuzz_shrink(const struct fuzz_subject *subject, struct oracle *oracle, 
 								  .most = tries,
 								  .stop = stop};
 	shrinking.all = shrinking.numbers * (size_t)failed->questions;
+	shrinking.burden = burden_of(&shrinking, &shrinking.best);
 	while (!at_end(&shrinking) && simplify(&shrinking)) continue;
 	*failed = shrinking.best;
 	return shrinking.tried;

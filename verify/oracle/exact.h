@@ -44,6 +44,9 @@ void dyadic_shift(mpz_t integer, long bits);
 /* The exact answer to a query; fills `surd` when it is later. */
 enum oracle_event exact_solve(struct oracle *oracle, const struct oracle_query *query, struct surd *surd);
 
+/* The signs of a, b, c and b^2 - a c, turned so that a >= 0. */
+void exact_signs(struct oracle *oracle, const struct oracle_query *query, int signs[ORACLE_SIGNS]);
+
 /* ---- surd.c: digits and order of surds */
 
 /* The leading digits: digits * 2^exponent <= value < (digits + 1) * 2^exponent, with `width` to width + 2 bits.

@@ -171,30 +171,61 @@ static bool part(struct oracle_estimate a, struct oracle_estimate b, struct orac
 	return true;
 }
 
-static bool solve_balls(const struct oracle_query *query, struct oracle_time *time)
+/* What a query asks: a t^2 + 2 b t + c, with a >= 0, and which of the two tables. */
+struct quadratic {
+	struct oracle_estimate a, b, c;
+	bool parts;
+};
+
+static bool read_balls(const struct oracle_query *query, struct quadratic *asked)
 {
 	const double *r = query->ball.r, *v = query->ball.v, contact = query->ball.contact;
 	if (!in_range(7, query->number)) return false;
-	struct oracle_estimate a = dot(3, v, v);
-	struct oracle_estimate b = dot(3, r, v);
-	struct oracle_estimate c = dot(4, (double[4]){r[0], r[1], r[2], contact}, (double[4]){r[0], r[1], r[2], -contact});
-	return query->shape == ORACLE_BALL_BALL ? meet(a, b, c, time) : part(a, b, c, time);
+	asked->a = dot(3, v, v);
+	asked->b = dot(3, r, v);
+	asked->c = dot(4, (double[4]){r[0], r[1], r[2], contact}, (double[4]){r[0], r[1], r[2], -contact});
+	asked->parts = query->shape == ORACLE_BALL_LEAVE;
+	return true;
 }
 
-static bool solve_plane(const double number[4], struct oracle_time *time)
+static bool read_plane(const double number[4], struct quadratic *asked)
 {
 	if (!in_range(4, number)) return false;
 	double speed = number[1], acceleration = number[2];
 	struct oracle_estimate height = exact_sum(number[0], -number[3]);
-	struct oracle_estimate a = {fabs(acceleration), 0, 0}, b = {speed, 0, 0}, c = {2 * height.high, 2 * height.low, 0};
-	return acceleration < 0 ? part(a, negate(b), negate(c), time) : meet(a, b, c, time);
+	asked->a = (struct oracle_estimate){fabs(acceleration), 0, 0};
+	asked->b = (struct oracle_estimate){speed, 0, 0};
+	asked->c = (struct oracle_estimate){2 * height.high, 2 * height.low, 0};
+	asked->parts = acceleration < 0;
+	if (!asked->parts) return true;
+	asked->b = negate(asked->b);
+	asked->c = negate(asked->c);
+	return true;
+}
+
+static bool read(const struct oracle_query *query, struct quadratic *asked)
+{
+	if (query->shape == ORACLE_BALL_BALL || query->shape == ORACLE_BALL_LEAVE) return read_balls(query, asked);
+	if (query->shape == ORACLE_BALL_PLANE) return read_plane(query->number, asked);
+	return read_plane((double[4]){query->plane.distance, query->plane.speed, 0, 0}, asked);
 }
 
 bool filter_solve(const struct oracle_query *query, struct oracle_time *time)
 {
-	if (query->shape == ORACLE_BALL_BALL || query->shape == ORACLE_BALL_LEAVE) return solve_balls(query, time);
-	if (query->shape == ORACLE_BALL_PLANE) return solve_plane(query->number, time);
-	return solve_plane((double[4]){query->plane.distance, query->plane.speed, 0, 0}, time);
+	struct quadratic asked;
+	if (!read(query, &asked)) return false;
+	return (asked.parts ? part : meet)(asked.a, asked.b, asked.c, time);
+}
+
+bool filter_signs(const struct oracle_query *query, int signs[ORACLE_SIGNS])
+{
+	struct quadratic asked;
+	if (!read(query, &asked)) return false;
+	const struct oracle_estimate value[ORACLE_SIGNS] = {asked.a, asked.b, asked.c,
+														discriminant(asked.a, asked.b, asked.c)};
+	for (int s = 0; s < ORACLE_SIGNS; s++)
+		if ((signs[s] = sign(value[s])) == UNSURE) return false;
+	return true;
 }
 
 /* high is the double nearest to high + low. The time lies strictly on one side of it, less than one step of the

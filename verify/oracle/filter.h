@@ -9,6 +9,9 @@
 /* Fills the event of `time` and its estimate. */
 bool filter_solve(const struct oracle_query *query, struct oracle_time *time);
 
+/* Of a, b, c and b^2 - a c, turned so that a >= 0. */
+bool filter_signs(const struct oracle_query *query, int signs[ORACLE_SIGNS]);
+
 bool filter_round(const struct oracle_estimate *estimate, mpfr_rnd_t direction, double *rounded);
 
 /* -1 or 1. */

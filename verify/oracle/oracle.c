@@ -69,6 +69,13 @@ struct oracle_time oracle_solve(struct oracle *oracle, const struct oracle_query
 	return time;
 }
 
+void oracle_signs(struct oracle *oracle, const struct oracle_query *query, int signs[ORACLE_SIGNS])
+{
+	if (oracle->force_exact || !filter_signs(query, signs)) exact_signs(oracle, query, signs);
+	bool turned = query->shape == ORACLE_BALL_PLANE && query->plane.acceleration < 0;
+	for (int s = 0; turned && s < ORACLE_SIGNS - 1; s++) signs[s] = -signs[s];
+}
+
 double oracle_round(struct oracle *oracle, const struct oracle_time *time, mpfr_rnd_t direction)
 {
 	double rounded;

@@ -117,6 +117,12 @@ bool oracle_accepts(const struct oracle_query *query);
 /* Whether and when. */
 struct oracle_time oracle_solve(struct oracle *oracle, const struct oracle_query *query);
 
+/* The signs, -1, 0 or 1, of the coefficients and of the discriminant on which the tables above turn: of a, b, c and
+ * b^2 - a c for balls; of acceleration, speed, h and D for a plane, of 0, speed, distance and speed^2 for a half-space.
+ */
+enum { ORACLE_SIGNS = 4 };
+void oracle_signs(struct oracle *oracle, const struct oracle_query *query, int signs[ORACLE_SIGNS]);
+
 /* The time as a double, correctly rounded to nearest-even, up, down or toward zero (MPFR_RNDN, RNDU, RNDD, RNDZ),
  * gradual underflow included. Beyond the largest double: infinity or DBL_MAX by the direction. Never: infinity. */
 double oracle_round(struct oracle *oracle, const struct oracle_time *time, mpfr_rnd_t direction);

@@ -125,6 +125,17 @@ enum oracle_event exact_solve(struct oracle *oracle, const struct oracle_query *
 	return parts ? part(oracle, surd) : meet(oracle, surd);
 }
 
+void exact_signs(struct oracle *oracle, const struct oracle_query *query, int signs[ORACLE_SIGNS])
+{
+	oracle->exact_count++;
+	read_query(oracle, query);
+	find_discriminant(oracle);
+	signs[0] = mpz_sgn(oracle->a);
+	signs[1] = mpz_sgn(oracle->b);
+	signs[2] = mpz_sgn(oracle->c);
+	signs[3] = mpz_sgn(oracle->discriminant);
+}
+
 double oracle_graze(struct oracle *oracle, const struct oracle_query *query)
 {
 	long scale, other_scale;

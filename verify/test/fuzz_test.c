@@ -71,6 +71,8 @@ static void bits_are_counted(void **state)
 	assert_int_equal(fuzz_bits(0), 0);
 	assert_int_equal(fuzz_bits(-0x1p-1074), 1);
 	assert_int_equal(fuzz_bits(0x1p300), 1);
+	assert_int_equal(fuzz_bits(0x3p-1074), 2);
+	assert_int_equal(fuzz_bits(-0x1.8p-1022), 2);
 	assert_int_equal(fuzz_bits(5), 3);
 	assert_int_equal(fuzz_bits(0x1.fffffffffffffp0), 53);
 	assert_int_equal(fuzz_bits(0.1), 52);

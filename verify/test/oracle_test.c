@@ -1,5 +1,7 @@
 /* The exact oracle on random inputs: the filter against the integers, inputs that are related exactly, ties, gaps,
  * memory. */
+#include "measure/exact_steps.h"
+
 #include "oracle_inputs.h"
 #include <float.h>
 #include <gmp.h>
@@ -7,6 +9,7 @@
 enum {
 	CASES = 1200000,       /* through the filter and through the integers */
 	RELATED_CASES = 50000, /* of inputs that are related to each other */
+	SIGN_CASES = 60000,    /* beside fractions */
 };
 
 /* Within the tolerance that the error promises, where the error is a normal double. */
@@ -59,6 +62,33 @@ static void test_filter_agrees_with_integers(void **state)
 				  count[ORACLE_LATER], by_filter);
 	for (int event = 0; event < 3; event++) assert_true(count[event] > CASES / 20);
 	assert_true(by_filter > CASES / 20 && by_filter < count[ORACLE_LATER]);
+}
+
+/* Fractions are a third way, which turns nothing and has no common unit. */
+static void test_signs_are_those_of_fractions(void **state)
+{
+	struct both *both = *state;
+	size_t count[EXACT_STEPS][3] = {0};
+	for (int i = 0; i < SIGN_CASES; i++) {
+		struct oracle_query query;
+		families[i % FAMILIES](&query);
+		enum touchstone_shape shape = (enum touchstone_shape)query.shape;
+		int quick[ORACLE_SIGNS], exact[ORACLE_SIGNS];
+		oracle_signs(both->quick, &query, quick);
+		oracle_signs(both->exact, &query, exact);
+		struct exact_steps steps;
+		exact_steps_init(&steps, shape, query.number);
+		for (int s = 0; s < EXACT_STEPS; s++) {
+			if (!exact_step_formula(shape, s)) continue;
+			int sign = mpq_sgn(steps.value[s]);
+			check(quick[s] == (sign > 0) - (sign < 0), &query, "sign by the filter");
+			check(exact[s] == (sign > 0) - (sign < 0), &query, "sign by integers");
+			count[s][1 + exact[s]]++;
+		}
+		exact_steps_clear(&steps);
+	}
+	for (int s = 0; s < EXACT_STEPS; s++)
+		for (int sign = -1; sign <= 1; sign++) assert_true(count[s][1 + sign] > SIGN_CASES / 1000);
 }
 
 /* ---- related inputs */
@@ -246,6 +276,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_filter_agrees_with_integers, make_oracles, drop_oracles),
+		cmocka_unit_test_setup_teardown(test_signs_are_those_of_fractions, make_oracles, drop_oracles),
 		cmocka_unit_test_setup_teardown(test_related_inputs, make_oracles, drop_oracles),
 		cmocka_unit_test_setup_teardown(test_ties_of_random_pairs, make_oracles, drop_oracles),
 		cmocka_unit_test_setup_teardown(test_gaps_of_random_answers, make_oracles, drop_oracles),
