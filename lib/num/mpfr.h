@@ -134,13 +134,14 @@ static inline double to_double(num x)
 {
 	mpfr_exp_t exponent = num_exponent(x);
 	if (exponent > -1021 && exponent < 1024) { /* far from both ends of a double's range */
-		int limbs = (x.precision + 63) / 64;
-		uint64_t first = x.limbs[limbs - 1], more = 0;
-		for (int l = 0; l < limbs - 1; l++) more |= x.limbs[l];
-		uint64_t kept = first >> 11, rest = first << 53 | (more != 0), half = UINT64_C(1) << 63;
-		kept += rest > half || (rest == half && (kept & 1));
+		enum { BEHIND = 11 };                  /* bits of the first limb that a double does not have */
+		int last = (x.precision - 1) / GMP_NUMB_BITS;
+		uint64_t first = x.limbs[last], more = 0, kept = first >> BEHIND;
+		while (last--) more |= x.limbs[last];
+		uint64_t rest = (first & ((1 << BEHIND) - 1)) | (more != 0), half = 1 << (BEHIND - 1);
+		kept += (rest + half - 1 + (kept & 1)) >> BEHIND;
 		uint64_t word = ((uint64_t)(exponent + 1021) << 52) + kept; /* the leading bit counts one exponent up */
-		if (x.sign < 0) word |= half;
+		word |= (uint64_t)(x.sign < 0) << 63;
 		double value;
 		memcpy(&value, &word, sizeof value);
 		return value;
@@ -151,19 +152,21 @@ static inline double to_double(num x)
 	return mpfr_get_d(header, MPFR_RNDN);
 }
 
+#include "num/mpfr_two_limbs.h"
+
 static inline num add(num a, num b)
 {
-	return num_apply(mpfr_add, &a, &b);
+	return num_fit(&a, &b) ? num_sum(&a, &b, 1) : num_apply(mpfr_add, &a, &b);
 }
 
 static inline num sub(num a, num b)
 {
-	return num_apply(mpfr_sub, &a, &b);
+	return num_fit(&a, &b) ? num_sum(&a, &b, -1) : num_apply(mpfr_sub, &a, &b);
 }
 
 static inline num mul(num a, num b)
 {
-	return num_apply(mpfr_mul, &a, &b);
+	return num_fit(&a, &b) ? num_product(&a, &b) : num_apply(mpfr_mul, &a, &b);
 }
 
 static inline num divide(num a, num b)

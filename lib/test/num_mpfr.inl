@@ -1,8 +1,8 @@
 /* The arithmetic "mpfr", of the NUM_LIMBS that the including file defines, against MPFR called in place. */
 #include "num/mpfr.h"
 
-static const int precisions[] = {2,   3,   4,   8,   11,  24,  25,  53,  63,  64,  65,  106,  113,
-								 127, 128, 129, 191, 192, 193, 255, 256, 257, 512, 577, 1023, 1024};
+static const int precisions[] = {2,   3,   4,   8,   11,  24,  25,  53,  63,  64,  65,  106, 113,  124, 125,
+								 126, 127, 128, 129, 191, 192, 193, 255, 256, 257, 512, 577, 1023, 1024};
 static const double allowed_error[] = {0, 0, 0, 0, 0};
 enum {
 	cases = 24000 / (NUM_LIMBS + 2),
