@@ -20,7 +20,7 @@ struct entry {
 	uint32_t kind;    /* 0: bookkeeping, which goes first; otherwise 1 + what the particle meets */
 };
 
-enum { PILE = 7 };
+enum { PILE = 7, WAITING = 8 };
 
 struct pile {                   /* one cache line */
 	_Alignas(64) uint32_t more; /* number of the block that goes on with it, which is full; 0: none */
@@ -47,12 +47,14 @@ struct agenda {
 	size_t size, heap_room;
 	struct distant *distant; /* beyond the horizon, in no order, or as a heap with the earliest day first */
 	size_t distants, distant_room;
-	size_t looked_through;   /* how many there were when those overtaken were last dropped */
-	bool sparse;             /* whether they are that heap */
-	size_t beyond;           /* events so far off that their day has no exact number: they were not entered */
-	uint64_t opened, sorted; /* days opened and entries found there: to judge the length of a day by */
-	bool wide;               /* whether its days are so many that none is in the cache when it is opened */
-	bool exhausted;          /* memory ran out and entries were lost: the agenda is of no more use */
+	size_t looked_through;           /* how many there were when those overtaken were last dropped */
+	bool sparse;                     /* whether they are that heap */
+	size_t beyond;                   /* events so far off that their day has no exact number: they were not entered */
+	uint64_t opened, sorted;         /* days opened and entries found there: to judge the length of a day by */
+	struct distant waiting[WAITING]; /* where days are many: notes on their way into the ring, */
+	uint32_t waits, oldest;          /* so many, and the one of them that came first */
+	bool wide;                       /* whether its days are so many that none is in the cache when it is opened */
+	bool exhausted;                  /* memory ran out and entries were lost: the agenda is of no more use */
 };
 
 /* Of two entries of one day, does `a` come first? Is a note still what its particle means to do, and what is that? */
@@ -70,7 +72,7 @@ static bool agenda_grow(void **array, size_t *room, size_t used, size_t size)
 {
 	if (used < *room) return true;
 	size_t more = *room + *room / 16 + 16;
-	void *grown = realloc(*array, more * size);
+	void *grown = memory_grow(*array, more * size);
 	if (!grown) return false;
 	*array = grown;
 	*room = more;
@@ -133,7 +135,7 @@ static size_t place_of(const struct agenda *agenda, double day)
 	return (size_t)(int64_t)day & (agenda->days - 1);
 }
 
-static void pile_add(struct agenda *agenda, double day, struct note note)
+static void pile_put(struct agenda *agenda, double day, struct note note)
 {
 	size_t place = place_of(agenda, day);
 	struct pile *pile = &agenda->pile[place];
@@ -147,6 +149,31 @@ static void pile_add(struct agenda *agenda, double day, struct note note)
 	}
 	pile->note[(*used)++] = note;
 	agenda->piled++;
+}
+
+/* Puts the note that has waited longest into the ring. */
+static void waiting_put(struct agenda *agenda)
+{
+	const struct distant *oldest = &agenda->waiting[agenda->oldest++ % WAITING];
+	agenda->waits--;
+	pile_put(agenda, oldest->day, oldest->note);
+}
+
+static void waiting_put_all(struct agenda *agenda)
+{
+	while (agenda->waits) waiting_put(agenda);
+}
+
+/* Enters a note into the ring. Where none of its days is in the cache, it waits for its own, and nobody for it. */
+static void pile_add(struct agenda *agenda, double day, struct note note)
+{
+	if (!agenda->wide) {
+		pile_put(agenda, day, note);
+		return;
+	}
+	ahead_to_change(&agenda->pile[place_of(agenda, day)]);
+	if (agenda->waits == WAITING) waiting_put(agenda);
+	agenda->waiting[(agenda->oldest + agenda->waits++) % WAITING] = (struct distant){day, note};
 }
 
 /* Enters into the first `size` of the distant, which are a heap, one more. */
@@ -242,9 +269,11 @@ static void agenda_push(struct agenda *agenda, const void *context, double page,
  * into the ring. */
 static size_t distant_look(struct agenda *agenda, const void *context)
 {
+	enum { AHEAD = 24 };
 	size_t kept = 0, moved = 0;
 	for (size_t i = 0; i < agenda->distants; i++) {
 		struct distant distant = agenda->distant[i];
+		if (agenda->wide && i + AHEAD < agenda->distants) note_far_ahead(context, agenda->distant[i + AHEAD].note);
 		if (!note_holds(context, distant.note)) continue;
 		if (distant.day < agenda->horizon)
 			pile_add(agenda, distant.day, distant.note), moved++;
@@ -328,6 +357,7 @@ static void fetch_ahead(const struct agenda *agenda, const void *context)
 static bool agenda_open(struct agenda *agenda, const void *context, bool *turned)
 {
 	while (agenda->size == 0) {
+		waiting_put_all(agenda);
 		if (agenda->piled == 0) {
 			double next = distant_first(agenda, context);
 			if (next == INFINITY) return false;
@@ -337,6 +367,7 @@ static bool agenda_open(struct agenda *agenda, const void *context, bool *turned
 			agenda_turn(agenda, context, agenda->today);
 			*turned = true;
 		}
+		waiting_put_all(agenda);
 		size_t place = place_of(agenda, agenda->today);
 		struct pile *pile = &agenda->pile[place];
 		pile_enter(agenda, context, pile, agenda->used[place]);

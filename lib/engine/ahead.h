@@ -10,4 +10,11 @@ static inline void ahead(const void *place)
 	__asm__ volatile("");
 }
 
+/* The same for what will be written. */
+static inline void ahead_to_change(const void *place)
+{
+	__builtin_prefetch(place, 1);
+	__asm__ volatile("");
+}
+
 #endif

@@ -9,4 +9,7 @@
  * page that was not looked at lately, and finding small ones took a tenth of the time. */
 void *memory_room(size_t bytes);
 
+/* The same, grown to so many bytes as by realloc. */
+void *memory_grow(void *room, size_t bytes);
+
 #endif
