@@ -25,28 +25,30 @@ static void cast_shadow(const struct touchstone_engine *engine, uint32_t i)
 						   velocity[1], velocity[2], radius);
 }
 
-/* The time of the search is that of the last event: no event of a pair is earlier, and none that is left is. */
+/* The time of the search is that of the last event: no event of a pair is earlier, and none that is left is. Where time
+ * has gone back, others may have had their last events after it, though not after the latest moment of the run. */
 static void keep_time(struct touchstone_engine *engine)
 {
 	struct shadows *shadows = &engine->shadows;
 	struct sieve *sieve = &shadows->sieve;
 	double clock = engine->page_length < INFINITY ? engine->page_length : moment_double(engine->now);
 	shadows->now = since_base(engine, engine->now.page, to_double(engine->now.time));
-	sieve->now = sieve->span = (float)shadows->now;
-	shadows->oldest = (float)(shadows->age + shadows->now);
+	double latest = since_base(engine, engine->latest.page, to_double(engine->latest.time));
+	shadows->back = fmax(0, latest - shadows->now);
+	sieve->now = (float)shadows->now;
+	sieve->span = (float)fmax(fabs(shadows->now), shadows->now + shadows->back);
+	shadows->oldest = (float)fmax(shadows->age + shadows->now, shadows->back);
 	clock *= shadows->per_time;
 	double rounded = (sieve->roundoff + 0x1p-53) * (shadows->oldest + clock);
 	sieve->drift = (float)(8 * rounded);
 	sieve->late = (float)(4 * rounded);
 }
 
-/* How long ago at most the last events of those were that search. Where time goes back, others may have had theirs
- * after now. */
+/* How long ago at most the last events of those were that search; or how long after now those of others may be. */
 static float age_of(const struct touchstone_engine *engine, const uint32_t *particle, int particles)
 {
 	const struct shadows *shadows = &engine->shadows;
-	double age = 0;
-	if (engine->method->policy & (POLICY_BACKWARDS | POLICY_SEARCH)) return shadows->oldest;
+	double age = shadows->back;
 	for (int p = 0; p < particles; p++) {
 		const struct body *body = &engine->body[particle[p]];
 		double since = shadows->now - since_base(engine, body->page, to_double(body->time));

@@ -50,8 +50,8 @@ struct sieve {
 	float boxes;    /* their sum */
 	float length;   /* about how far most pairs are: L */
 	float now;      /* time of the search */
-	float span;     /* no time is larger: `now` itself */
-	float age;      /* no last event of a particle that searches is longer ago */
+	float span;     /* no time is larger: `now` itself, where no time has gone back */
+	float age;      /* no last event of a particle that searches is longer ago, and none is so long after now */
 	float roundoff; /* of the working arithmetic: n */
 	float grain;    /* error of its differences of places */
 	float drift;    /* error of its flights, as a time */

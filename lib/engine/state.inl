@@ -109,6 +109,7 @@ struct shadows {
 	double now;                             /* time of the search, since the base */
 	double age;                             /* of the oldest last event, at the base */
 	float oldest;                           /* and now */
+	double back;                            /* from now to the latest moment of the run */
 };
 
 /* Neighbour lists: engine/neighbours.inl. */
