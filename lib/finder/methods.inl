@@ -71,11 +71,13 @@ static const struct method methods[METHODS] = {
 				 rounded_claim, 0},
 #endif
 	[REWIND] = {.name = "rewind",
+				.sieve = SIEVE_MISSES,
 				.ball_ball = naive_ball_ball,
 				.ball_plane = naive_ball_plane,
 				.policy = POLICY_BACKWARDS},
 	[SKIP] = {.name = "skip", .sieve = SIEVE_MISSES, .ball_ball = skip_ball_ball, .ball_plane = skip_ball_plane},
 	[SEARCH] = {.name = "search",
+				.sieve = SIEVE_MISSES,
 				.ball_ball = naive_ball_ball,
 				.ball_plane = naive_ball_plane,
 				.policy = POLICY_SEARCH},
