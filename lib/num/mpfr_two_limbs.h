@@ -75,7 +75,8 @@ static inline num num_sum(const num *a, const num *b, int turn)
 	moved |= moved << shift != smaller;
 	num_wide sum = (larger >> 1) + ((moved ^ -(num_wide)opposite) + opposite);
 	uint64_t first = (uint64_t)(sum >> GMP_NUMB_BITS);
-	if (!first && !(uint64_t)sum) return from_double(0);
+	if (!first && !(uint64_t)sum)
+		return (num){.mark = num_mark(__MPFR_EXP_ZERO), .precision = num_precision, .sign = 1};
 	int vacant = first ? __builtin_clzll(first) : GMP_NUMB_BITS + __builtin_clzll((uint64_t)sum);
 	return num_round(sign, most + 1 - vacant, sum << vacant);
 }

@@ -29,12 +29,14 @@ struct kills_tally {
 	char error[STORE_ERROR];
 };
 
-/* Starts a command, in words for a shell, with nothing to read and nobody to tell. */
+/* Starts a command, in words for a shell, with nothing to read and nobody to tell. Ctrl-C reaches it, also where this
+ * program was started to ignore it, as in the background of a script. */
 static inline pid_t kills_start(const char *command)
 {
 	fflush(NULL);
 	pid_t process = fork();
 	if (process != 0) return process;
+	signal(SIGINT, SIG_DFL);
 	if (freopen("/dev/null", "r", stdin) && freopen("/dev/null", "w", stdout) && freopen("/dev/null", "w", stderr))
 		execl("/bin/sh", "sh", "-c", command, (char *)NULL);
 	_exit(99);
