@@ -72,7 +72,7 @@ static bool agenda_grow(void **array, size_t *room, size_t used, size_t size)
 {
 	if (used < *room) return true;
 	size_t more = *room + *room / 16 + 16;
-	void *grown = memory_grow(*array, more * size);
+	void *grown = realloc(*array, more * size);
 	if (!grown) return false;
 	*array = grown;
 	*room = more;

@@ -25,6 +25,13 @@ static void cast_shadow(const struct touchstone_engine *engine, uint32_t i)
 						   velocity[1], velocity[2], radius);
 }
 
+/* From now to the latest moment of the run, where it may have gone back. */
+static double gone_back(const struct touchstone_engine *engine)
+{
+	if (!(engine->method->policy & (POLICY_BACKWARDS | POLICY_SEARCH))) return 0;
+	return fmax(0, since_base(engine, engine->latest.page, to_double(engine->latest.time)) - engine->shadows.now);
+}
+
 /* The time of the search is that of the last event: no event of a pair is earlier, and none that is left is. Where time
  * has gone back, others may have had their last events after it, though not after the latest moment of the run. */
 static void keep_time(struct touchstone_engine *engine)
@@ -33,10 +40,9 @@ static void keep_time(struct touchstone_engine *engine)
 	struct sieve *sieve = &shadows->sieve;
 	double clock = engine->page_length < INFINITY ? engine->page_length : moment_double(engine->now);
 	shadows->now = since_base(engine, engine->now.page, to_double(engine->now.time));
-	double latest = since_base(engine, engine->latest.page, to_double(engine->latest.time));
-	shadows->back = fmax(0, latest - shadows->now);
+	shadows->back = gone_back(engine);
 	sieve->now = (float)shadows->now;
-	sieve->span = (float)fmax(fabs(shadows->now), shadows->now + shadows->back);
+	sieve->span = fmaxf(sieve->span, fabsf(sieve->now));
 	shadows->oldest = (float)fmax(shadows->age + shadows->now, shadows->back);
 	clock *= shadows->per_time;
 	double rounded = (sieve->roundoff + 0x1p-53) * (shadows->oldest + clock);
@@ -101,7 +107,7 @@ static void cast_shadows(struct touchstone_engine *engine)
 	}
 	struct sieve *sieve = &shadows->sieve;
 	double place = 0;
-	sieve->boxes = 0;
+	sieve->boxes = sieve->span = 0;
 	sieve->length = 1;
 	for (int axis = 0; axis < 3; axis++) {
 		if (axis < engine->dimensions) place = fmax(place, engine->place_width[axis]);

@@ -41,7 +41,7 @@
 #include "engine/pairs.h"
 
 struct shadow {              /* half a cache line */
-	float position[3], time; /* where it was at a time not later than the search's */
+	float position[3], time; /* where it was at the time of a search: this one's, or one before */
 	float velocity[3], radius;
 };
 
@@ -50,7 +50,7 @@ struct sieve {
 	float boxes;    /* their sum */
 	float length;   /* about how far most pairs are: L */
 	float now;      /* time of the search */
-	float span;     /* no time is larger: `now` itself, where no time has gone back */
+	float span;     /* no time is larger, of this search or of one before: `now` itself, unless time has gone back */
 	float age;      /* no last event of a particle that searches is longer ago, and none is so long after now */
 	float roundoff; /* of the working arithmetic: n */
 	float grain;    /* error of its differences of places */
