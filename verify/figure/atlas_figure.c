@@ -147,16 +147,18 @@ struct result *atlas_result(const struct atlas *atlas)
 					 " events each. A watcher checks "
 					 "each run whenever its particles have had an event each: whether it halts or loops, whether time "
 					 "runs backwards, whether particles are deep in one another and stay so, whether energy comes or "
-					 "goes. Then bisection over the precision finds from how many bits on the method survives.",
+					 "goes, or momentum that nothing outside changes. Then bisection over the precision finds from how "
+					 "many bits on the method survives.",
 					 atlas->methods, atlas->scenes, atlas->limits.events);
 	add_claim(result, atlas);
 	add_scenes(result, atlas);
 	add_glance(result, atlas);
 	add_cells(result, atlas);
 	result_note(result,
-				"Deep is nearer than %g of the contact distance; energy may change by %g of its scale. An overlap "
-				"that lasts ten checks is an entangled pair, one that clears is a pair that penetrates.",
-				failure_depth, failure_energy);
+				"Deep is nearer than %g of the contact distance; energy may change by %g of its scale at the start, "
+				"momentum by as much of its scale at the time. An overlap that lasts ten checks is an entangled pair, "
+				"one that clears is a pair that penetrates.",
+				failure_depth, failure_conserved);
 	result_note(
 		result,
 		"Bisection takes it that a method that survives does so with more bits too. That is not certain: runs of "

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "measure/conservation.h"
+#include "measure/deep_overlap.h"
 
 enum {
 	PATIENCE = 10, /* checks in which an overlap may clear */
@@ -17,20 +18,14 @@ enum {
 struct run {
 	const struct touchstone_scene *scene;
 	struct touchstone_engine *engine;
-	double (*position)[3];
+	struct deep_overlaps overlaps;
 	bool elastic;
 	struct conservation begin;
-	double lowest; /* energy, over its scale at the start and from there */
-	double clock;  /* at the last check */
-	bool keeps;    /* a state from which it may be repeated: */
+	double brought; /* energy, by kicks and thermal walls, until then */
+	double lowest;  /* energy, over its scale at the start and from there */
+	double clock;   /* at the last check */
+	bool keeps;     /* a state from which it may be repeated: */
 	struct touchstone_snapshot kept;
-};
-
-/* Two particles, or a particle and a wall. */
-struct overlap {
-	uint32_t first, second;
-	bool wall;
-	double depth; /* how near, over the contact distance */
 };
 
 static bool loses_nothing(struct touchstone_restitution law)
@@ -46,19 +41,25 @@ static bool is_elastic(const struct touchstone_scene *scene)
 	return elastic;
 }
 
+static double brought(const struct touchstone_status *status)
+{
+	return status->kicked_energy + status->thermostat_energy;
+}
+
 static bool run_begin(struct run *run, const struct touchstone_scene *scene, double collisions, const char *arithmetic,
 					  const char *method, const struct watch *watch, char error[160])
 {
 	struct touchstone_status status;
 	*run = (struct run){.scene = scene, .elastic = is_elastic(scene)};
 	run->engine = touchstone_create(scene, arithmetic, method, error);
-	run->position = malloc(scene->particle_count * sizeof *run->position);
-	if (run->engine && !run->position) snprintf(error, 160, "not enough memory");
-	if (!run->engine || !run->position) return false;
+	bool made = deep_overlaps_make(&run->overlaps, scene);
+	if (run->engine && !made) snprintf(error, 160, "not enough memory");
+	if (!run->engine || !made) return false;
 	if (collisions > 0) course_equilibrate(run->engine, collisions, watch);
 	touchstone_status(run->engine, &status);
 	run->clock = status.time;
 	run->begin = conservation_of(scene, run->engine);
+	run->brought = brought(&status);
 	return true;
 }
 
@@ -72,7 +73,7 @@ static void run_end(struct run *run)
 {
 	run_forget(run);
 	touchstone_destroy(run->engine);
-	free(run->position);
+	deep_overlaps_free(&run->overlaps);
 }
 
 /* Takes it back to the state that was kept, or to its start. */
@@ -95,62 +96,12 @@ static bool read_positions(struct run *run)
 	bool finite = true;
 	for (uint32_t p = 0; p < run->scene->particle_count; p++) {
 		double velocity[3];
-		touchstone_state(run->engine, p, run->position[p], velocity);
+		double *position = run->overlaps.position[p];
+		touchstone_state(run->engine, p, position, velocity);
 		for (int axis = 0; axis < run->scene->dimensions; axis++)
-			finite &= isfinite(run->position[p][axis]) && isfinite(velocity[axis]);
+			finite &= isfinite(position[axis]) && isfinite(velocity[axis]);
 	}
 	return finite;
-}
-
-static double diameter(const struct run *run, uint32_t p)
-{
-	return run->scene->species[run->scene->particles[p].species].diameter;
-}
-
-/* Distance of two particles, nearest images, over that of their contact. Cores of potentials do not count. */
-static double nearness(const struct run *run, uint32_t p, uint32_t q)
-{
-	const struct touchstone_scene *scene = run->scene;
-	double square = 0, contact = (diameter(run, p) + diameter(run, q)) / 2;
-	for (int axis = 0; axis < scene->dimensions; axis++) {
-		double offset = run->position[p][axis] - run->position[q][axis];
-		if (scene->periodic[axis]) offset -= scene->box[axis] * rint(offset / scene->box[axis]);
-		square += offset * offset;
-	}
-	return sqrt(square) / contact;
-}
-
-static double nearness_to_wall(const struct run *run, uint32_t p, size_t w)
-{
-	const struct touchstone_wall *wall = &run->scene->walls[w];
-	double distance = 0;
-	for (int axis = 0; axis < run->scene->dimensions; axis++)
-		distance += wall->normal[axis] * (run->position[p][axis] - wall->point[axis]);
-	return 2 * distance / diameter(run, p);
-}
-
-static double depth_of(const struct run *run, const struct overlap *overlap)
-{
-	return overlap->wall ? nearness_to_wall(run, overlap->first, overlap->second)
-						 : nearness(run, overlap->first, overlap->second);
-}
-
-/* The deepest overlap, if one is deep. */
-static bool find_deep(const struct run *run, struct overlap *deep)
-{
-	uint32_t count = (uint32_t)run->scene->particle_count;
-	*deep = (struct overlap){.depth = failure_depth};
-	for (uint32_t p = 0; p < count && run->scene->potential_count == 0; p++)
-		for (uint32_t q = 0; q < p; q++) {
-			double near = nearness(run, p, q);
-			if (near < deep->depth) *deep = (struct overlap){q, p, false, near};
-		}
-	for (uint32_t p = 0; p < count; p++)
-		for (uint32_t w = 0; w < run->scene->wall_count; w++) {
-			double near = nearness_to_wall(run, p, w);
-			if (near < deep->depth) *deep = (struct overlap){p, w, true, near};
-		}
-	return deep->depth < failure_depth;
 }
 
 __attribute__((format(printf, 4, 5))) static bool fail(const struct run *run, struct failure *failure,
@@ -168,22 +119,51 @@ __attribute__((format(printf, 4, 5))) static bool fail(const struct run *run, st
 	return true;
 }
 
-static bool judge_energy(struct run *run, struct failure *failure)
+/* What kicks and thermal walls have brought in does not count. */
+static bool judge_energy(struct run *run, const struct conservation *now, struct failure *failure)
 {
-	struct conservation now = conservation_of(run->scene, run->engine);
-	double change = conservation_energy_drift(&run->begin, &now);
+	struct touchstone_status status;
+	touchstone_status(run->engine, &status);
+	double change = conservation_energy_drift(&run->begin, now);
 	if (!isfinite(change)) return false; /* at rest from the start */
+	change -= (brought(&status) - run->brought) / run->begin.energy_scale;
 	run->lowest = fmin(run->lowest, change);
 	double gain = run->elastic ? change : change - run->lowest;
-	if (gain > failure_energy)
+	if (gain > failure_conserved)
 		return fail(run, failure, FAILURE_GAINS_ENERGY, "the energy has risen by %.3g of its scale", gain);
-	if (run->elastic && change < -failure_energy)
+	if (run->elastic && change < -failure_conserved)
 		return fail(run, failure, FAILURE_DRIFTS, "the energy has fallen by %.3g of its scale", -change);
 	return false;
 }
 
+/* Only particles act on particles along this axis, and by what a contact exchanges. */
+static bool keeps_momentum(const struct touchstone_scene *scene, int axis)
+{
+	bool keeps = scene->acceleration[axis] == 0 && scene->thermostat == 0 && !scene->convection.temperatures;
+	for (size_t w = 0; w < scene->wall_count; w++) keeps &= scene->walls[w].normal[axis] == 0;
+	return keeps;
+}
+
+/* What a gas loses by cooling is energy, not momentum: the scale is that of its speeds now. */
+static bool judge_momentum(const struct run *run, const struct conservation *now, struct failure *failure)
+{
+	for (int axis = 0; axis < run->scene->dimensions; axis++) {
+		double change = fabs(now->momentum[axis][0] - run->begin.momentum[axis][0]) / now->momentum_scale;
+		if (change > failure_conserved && keeps_momentum(run->scene, axis))
+			return fail(run, failure, FAILURE_DRIFTS, "the momentum has changed by %.3g of its scale, along %c", change,
+						"xyz"[axis]);
+	}
+	return false;
+}
+
+static bool judge_conserved(struct run *run, struct failure *failure)
+{
+	const struct conservation now = conservation_of(run->scene, run->engine);
+	return judge_energy(run, &now, failure) || judge_momentum(run, &now, failure);
+}
+
 /* Judges the state of a run between events. An overlap is left in `deep`, to be judged later. */
-static bool judge(struct run *run, struct failure *failure, struct overlap *deep)
+static bool judge(struct run *run, struct failure *failure, struct deep_overlap *deep)
 {
 	struct touchstone_status status;
 	touchstone_status(run->engine, &status);
@@ -194,10 +174,10 @@ static bool judge(struct run *run, struct failure *failure, struct overlap *deep
 	if (status.time < run->clock)
 		return fail(run, failure, FAILURE_BACKWARDS, "the clock stands at %.9g and has been at %.9g", status.time,
 					run->clock);
-	if (find_deep(run, deep))
+	if (deep_overlaps_find(&run->overlaps, failure_depth, deep))
 		return fail(run, failure, FAILURE_PASSES, "particle %u is at %.3g of the contact distance from %s %u",
 					deep->first, deep->depth, deep->wall ? "wall" : "particle", deep->second);
-	if (judge_energy(run, failure)) return true;
+	if (judge_conserved(run, failure)) return true;
 	if (status.verdict == TOUCHSTONE_COLLAPSED)
 		return run->elastic ? fail(run, failure, FAILURE_LOOPS, "%s", status.reason)
 							: fail(run, failure, FAILURE_REST, "%s", status.reason);
@@ -220,14 +200,14 @@ static bool advance(const struct run *run, uint64_t events, const struct touchst
 }
 
 /* An overlap that stays is an entanglement. */
-static void wait_for_parting(const struct run *run, const struct overlap *deep, uint64_t stride,
+static void wait_for_parting(const struct run *run, const struct deep_overlap *deep, uint64_t stride,
 							 const struct touchstone_limits *limits, const struct watch *watch, struct failure *failure)
 {
 	bool stays = true, goes_on = true;
 	int checks = 0;
 	for (; stays && goes_on && checks < PATIENCE; checks++) {
 		goes_on = advance(run, stride, limits, watch);
-		stays = read_positions((struct run *)run) && depth_of(run, deep) < 1;
+		stays = read_positions((struct run *)run) && deep_overlaps_depth(&run->overlaps, deep) < 1;
 	}
 	if (stays && checks > 0 && !deep->wall) failure->kind = FAILURE_ENTANGLES;
 }
@@ -237,7 +217,7 @@ static uint64_t run_checked(struct run *run, uint64_t stride, const struct touch
 							const struct watch *watch, struct failure *failure)
 {
 	struct touchstone_status status;
-	struct overlap deep;
+	struct deep_overlap deep;
 	uint64_t checks = 0;
 	for (uint64_t good = 0;;) {
 		bool goes_on = advance(run, stride, limits, watch);
@@ -263,7 +243,7 @@ static void find_first(struct run *run, uint64_t good, const struct touchstone_l
 					   const struct watch *watch, struct failure *failure)
 {
 	struct failure first = {0};
-	struct overlap deep;
+	struct deep_overlap deep;
 	const struct watch quiet = {watch ? watch->stop : NULL, NULL, NULL};
 	struct touchstone_status status;
 	touchstone_status(run->engine, &status);

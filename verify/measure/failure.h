@@ -7,7 +7,8 @@
  *	loops            events go on but time does not (the engine's verdict), in a scene that loses no energy
  *	runs back        the clock is earlier than at the check before
  *	gains energy     of the energy at the start (its scale: conservation.h), more than 1 % has come in
- *	drifts           or, in a scene that loses none, has gone
+ *	drifts           or, in a scene that loses none, has gone; or the momentum along an axis on which nothing outside
+ *	                 acts has changed by more than 1 % of its scale now: a gas that cools must not end as a flock
  *	entangles        two particles are nearer than 9/10 of their contact distance, and overlap at the next ten checks
  *too penetrates       or have parted by then; or a particle is so deep in a wall
  *
@@ -42,7 +43,7 @@ struct failure {
 	char text[200];  /* one line for people: what, who, when; "" where nothing is wrong */
 };
 
-static const double failure_energy = 0.01, failure_depth = 0.9; /* the bounds above */
+static const double failure_conserved = 0.01, failure_depth = 0.9; /* the bounds above */
 
 /* Runs the scene, `collisions` elastic ones per particle first, and judges. False with one line in `error` when no
  * engine can be made. Memory: three numbers a particle and axis. */
