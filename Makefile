@@ -188,7 +188,7 @@ $(PLAIN:%=$(BUILD)/object/lib/unit/%.o): CFLAGS += -O0
 $(call objects,$(MAIN)): CPPFLAGS += -DTOUCHSTONE_VERSION='"$(VERSION)"'
 
 # The sieve's bound holds whether products and sums are fused or not; fused is faster.
-$(BUILD)/object/lib/engine/sieve.o: CFLAGS += -ffp-contract=fast
+$(call objects,$(wildcard lib/engine/sieve_*.c)): CFLAGS += -ffp-contract=fast
 
 # gcc 12 vectorises double -> float -> double in pairs and drops the rounding on the way.
 $(BUILD)/object/lib/unit/binary32.o: CFLAGS += -fno-tree-slp-vectorize

@@ -6,7 +6,7 @@
 #include "engine/cells.h"
 
 #ifdef __x86_64__
-#include <immintrin.h>
+#include "engine/pack.h"
 #endif
 
 void bands_add(struct bands *bands, double low, double high)
@@ -114,6 +114,67 @@ AVX512 static size_t list_512(const struct bands *bands, const struct anchor *an
 	}
 	return all;
 }
+
+#define AVX2 __attribute__((target("avx2,popcnt,bmi,bmi2")))
+
+/* Three coordinates of eight anchors: two transpositions of squares of four at once. */
+AVX2 static inline void fetch_eight(const struct anchor *anchor, const uint32_t *entry, __m256 at[3])
+{
+	__m256d pair[4];
+	for (int k = 0; k < 4; k += 2) {
+		__m256 row[2];
+		for (int j = 0; j < 2; j++) {
+			__m128 first = _mm_loadu_ps(anchor[entry_particle(entry[k + j])].at);
+			__m128 second = _mm_loadu_ps(anchor[entry_particle(entry[k + j + 4])].at);
+			row[j] = _mm256_insertf128_ps(_mm256_castps128_ps256(first), second, 1);
+		}
+		pair[k] = _mm256_castps_pd(_mm256_unpacklo_ps(row[0], row[1]));
+		pair[k + 1] = _mm256_castps_pd(_mm256_unpackhi_ps(row[0], row[1]));
+	}
+	at[0] = _mm256_castpd_ps(_mm256_unpacklo_pd(pair[0], pair[2]));
+	at[1] = _mm256_castpd_ps(_mm256_unpackhi_pd(pair[0], pair[2]));
+	at[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(pair[1], pair[3]));
+}
+
+AVX2 static inline __m256 eight_within(const struct bands *bands, const float own[3], const __m256 other[3],
+									   const __m256 shift[3])
+{
+	__m256 square = _mm256_setzero_ps(), inside = square;
+	for (int axis = 0; axis < 3; axis++) {
+		__m256 offset = _mm256_sub_ps(_mm256_sub_ps(_mm256_set1_ps(own[axis]), other[axis]), shift[axis]);
+		square = _mm256_add_ps(square, _mm256_mul_ps(offset, offset));
+	}
+	for (int b = 0; b < bands->count; b++) {
+		__m256 beyond = _mm256_cmp_ps(square, _mm256_set1_ps(bands->low[b]), _CMP_GE_OQ);
+		__m256 before = _mm256_cmp_ps(square, _mm256_set1_ps(bands->high[b]), _CMP_LE_OQ);
+		inside = _mm256_or_ps(inside, _mm256_and_ps(beyond, before));
+	}
+	return inside;
+}
+
+AVX2 static size_t list_avx2(const struct bands *bands, const struct anchor *anchor, const float box[3],
+							 const float from[3], const float to[3], const uint32_t *entry, size_t count,
+							 uint32_t *found)
+{
+	size_t all = 0;
+	for (size_t k = 0; k < count; k += 8) {
+		__m256i some = _mm256_loadu_si256((const __m256i *)(entry + k)), one = _mm256_set1_epi32(1);
+		__m256 at[3], shift[3] = {_mm256_setzero_ps(), _mm256_setzero_ps(), _mm256_setzero_ps()};
+		fetch_eight(anchor, entry + k, at);
+		bool images = !_mm256_testz_si256(some, _mm256_set1_epi32((int)~ENTRY_PARTICLE));
+		for (int axis = 0; images && axis < 3; axis++) {
+			__m256i code = _mm256_srli_epi32(some, ENTRY_BITS + 2 * axis);
+			__m256i image =
+				_mm256_sub_epi32(_mm256_and_si256(code, one), _mm256_and_si256(_mm256_srli_epi32(code, 1), one));
+			shift[axis] = _mm256_mul_ps(_mm256_cvtepi32_ps(image), _mm256_set1_ps(box[axis]));
+		}
+		__m256 newly = _mm256_andnot_ps(eight_within(bands, from, at, shift), eight_within(bands, to, at, shift));
+		unsigned used = (unsigned)_mm256_movemask_ps(newly) & (count - k < 8 ? (1u << (count - k)) - 1 : 0xff);
+		all += pack_four(_mm256_castsi256_si128(some), used & 15, found + all);
+		all += pack_four(_mm256_extracti128_si256(some, 1), used >> 4, found + all);
+	}
+	return all;
+}
 #endif
 
 bands_lister *bands_machine(size_t number)
@@ -122,6 +183,7 @@ bands_lister *bands_machine(size_t number)
 	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("bmi2") &&
 		number-- == 0)
 		return list_512;
+	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && number-- == 0) return list_avx2;
 #endif
 	return number == 0 ? list_any : NULL;
 }

@@ -6,7 +6,7 @@
 #include "engine/memory.h"
 
 #ifdef __x86_64__
-#include <immintrin.h>
+#include "engine/pack.h"
 #endif
 
 static cells_lister *choose_lister(bool packed);
@@ -137,6 +137,8 @@ static size_t list_packed_any(const struct cells *cells, const uint32_t *centre,
 }
 
 #ifdef __x86_64__
+#define AVX2 static __attribute__((target("avx2,popcnt,bmi,bmi2")))
+#define AVX2_INLINE AVX2 inline __attribute__((always_inline))
 #define AVX512 static __attribute__((target("avx512f,popcnt,bmi,bmi2")))
 #define AVX512_INLINE AVX512 inline __attribute__((always_inline))
 
@@ -206,6 +208,51 @@ AVX512 size_t list_packed_512(const struct cells *cells, const uint32_t *centre,
 	_mm512_storeu_si512(list + found, _mm512_setzero_si512());
 	return found;
 }
+
+/* Which of four entries are in use, and not the one that searches. */
+AVX2_INLINE unsigned used_of(__m128i four, __m128i none, __m128i own)
+{
+	__m128i unused = _mm_or_si128(_mm_cmpeq_epi32(four, none), _mm_cmpeq_epi32(four, own));
+	return (unsigned)_mm_movemask_ps(_mm_castsi128_ps(unused)) ^ 15;
+}
+
+AVX2_INLINE void end_list(uint32_t *end)
+{
+	_mm256_storeu_si256((__m256i *)end, _mm256_setzero_si256());
+	_mm256_storeu_si256((__m256i *)(end + 8), _mm256_setzero_si256());
+}
+
+/* Four entries at a time: a cell has a multiple of it. */
+AVX2 size_t list_rows_avx2(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+						   size_t length, uint32_t self, uint32_t *list)
+{
+	const __m128i none = _mm_set1_epi32((int)entry_none), own = _mm_set1_epi32((int)self);
+	size_t found = 0;
+	(void)cells;
+	for (int row = 0; row < rows; row++)
+		for (size_t i = 0; i < length; i += 4) {
+			__m128i four = _mm_loadu_si128((const __m128i *)(centre + offset[row] + i));
+			found += pack_four(four, used_of(four, none, own), list + found);
+		}
+	end_list(list + found);
+	return found;
+}
+
+AVX2 size_t list_packed_avx2(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							 size_t length, uint32_t self, uint32_t *list)
+{
+	const __m128i none = _mm_set1_epi32((int)entry_none), own = _mm_set1_epi32((int)self);
+	size_t found = 0;
+	for (int row = 0; row < rows; row++)
+		for (size_t cell = 0; cell < length; cell += cells->capacity)
+			for (size_t i = 0; i < cells->capacity; i += 4) {
+				__m128i four = _mm_loadu_si128((const __m128i *)(centre + offset[row] + cell + i));
+				found += pack_four(four, used_of(four, none, own), list + found);
+				if (_mm_movemask_epi8(_mm_cmpeq_epi32(four, none))) break;
+			}
+	end_list(list + found);
+	return found;
+}
 #endif
 
 static cells_lister *choose_lister(bool packed)
@@ -213,6 +260,8 @@ static cells_lister *choose_lister(bool packed)
 #ifdef __x86_64__
 	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("bmi2"))
 		return packed ? list_packed_512 : list_rows_512;
+	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"))
+		return packed ? list_packed_avx2 : list_rows_avx2;
 #endif
 	return packed ? list_packed_any : list_rows_any;
 }

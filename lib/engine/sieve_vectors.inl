@@ -1,0 +1,14 @@
+/* Steps of the sieve on machines that compare vectors into vectors. */
+typedef whole_lanes mask;
+
+INLINE mask less(lanes a, lanes b)
+{
+	return a < b;
+}
+
+INLINE mask behind(size_t count)
+{
+	whole_lanes number;
+	for (int lane = 0; lane < LANES; lane++) number[lane] = lane;
+	return number >= (int32_t)(count < LANES ? count : LANES);
+}
