@@ -170,8 +170,7 @@ AVX2 static size_t list_avx2(const struct bands *bands, const struct anchor *anc
 		}
 		__m256 newly = _mm256_andnot_ps(eight_within(bands, from, at, shift), eight_within(bands, to, at, shift));
 		unsigned used = (unsigned)_mm256_movemask_ps(newly) & (count - k < 8 ? (1u << (count - k)) - 1 : 0xff);
-		all += pack_four(_mm256_castsi256_si128(some), used & 15, found + all);
-		all += pack_four(_mm256_extracti128_si256(some, 1), used >> 4, found + all);
+		all += pack_eight(some, used, found + all);
 	}
 	return all;
 }

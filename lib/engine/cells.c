@@ -209,11 +209,11 @@ AVX512 size_t list_packed_512(const struct cells *cells, const uint32_t *centre,
 	return found;
 }
 
-/* Which of four entries are in use, and not the one that searches. */
-AVX2_INLINE unsigned used_of(__m128i four, __m128i none, __m128i own)
+/* Which of eight entries are in use, and not the one that searches. */
+AVX2_INLINE unsigned used_of(__m256i eight, __m256i none, __m256i own)
 {
-	__m128i unused = _mm_or_si128(_mm_cmpeq_epi32(four, none), _mm_cmpeq_epi32(four, own));
-	return (unsigned)_mm_movemask_ps(_mm_castsi128_ps(unused)) ^ 15;
+	__m256i unused = _mm256_or_si256(_mm256_cmpeq_epi32(eight, none), _mm256_cmpeq_epi32(eight, own));
+	return (unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(unused)) ^ 0xff;
 }
 
 AVX2_INLINE void end_list(uint32_t *end)
@@ -222,33 +222,54 @@ AVX2_INLINE void end_list(uint32_t *end)
 	_mm256_storeu_si256((__m256i *)(end + 8), _mm256_setzero_si256());
 }
 
-/* Four entries at a time: a cell has a multiple of it. */
+/* Eight entries at a time, and then four: a cell has a multiple of that. */
+AVX2_INLINE size_t list_row(const uint32_t *row, size_t length, __m256i none, __m256i own, uint32_t *list)
+{
+	size_t found = 0, i = 0;
+	for (; i + 8 <= length; i += 8) {
+		__m256i eight = _mm256_loadu_si256((const __m256i *)(row + i));
+		found += pack_eight(eight, used_of(eight, none, own), list + found);
+	}
+	if (i == length) return found;
+	__m256i four = _mm256_inserti128_si256(none, _mm_loadu_si128((const __m128i *)(row + i)), 0);
+	return found + pack_eight(four, used_of(four, none, own), list + found);
+}
+
+AVX2_INLINE size_t list_rows_of_eights(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
+									   uint32_t self, uint32_t *list)
+{
+	const __m256i none = _mm256_set1_epi32((int)entry_none), own = _mm256_set1_epi32((int)self);
+	size_t found = 0;
+	for (int row = 0; row < rows; row++) found += list_row(centre + offset[row], length, none, own, list + found);
+	end_list(list + found);
+	return found;
+}
+
 AVX2 size_t list_rows_avx2(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
 						   size_t length, uint32_t self, uint32_t *list)
 {
-	const __m128i none = _mm_set1_epi32((int)entry_none), own = _mm_set1_epi32((int)self);
-	size_t found = 0;
 	(void)cells;
-	for (int row = 0; row < rows; row++)
-		for (size_t i = 0; i < length; i += 4) {
-			__m128i four = _mm_loadu_si128((const __m128i *)(centre + offset[row] + i));
-			found += pack_four(four, used_of(four, none, own), list + found);
-		}
-	end_list(list + found);
-	return found;
+	switch (length) {
+	case 12:
+		return list_rows_of_eights(centre, offset, rows, 12, self, list);
+	case 24:
+		return list_rows_of_eights(centre, offset, rows, 24, self, list);
+	default:
+		return list_rows_of_eights(centre, offset, rows, length, self, list);
+	}
 }
 
 AVX2 size_t list_packed_avx2(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
 							 size_t length, uint32_t self, uint32_t *list)
 {
-	const __m128i none = _mm_set1_epi32((int)entry_none), own = _mm_set1_epi32((int)self);
+	const __m256i none = _mm256_set1_epi32((int)entry_none), own = _mm256_set1_epi32((int)self);
 	size_t found = 0;
 	for (int row = 0; row < rows; row++)
 		for (size_t cell = 0; cell < length; cell += cells->capacity)
 			for (size_t i = 0; i < cells->capacity; i += 4) {
-				__m128i four = _mm_loadu_si128((const __m128i *)(centre + offset[row] + cell + i));
-				found += pack_four(four, used_of(four, none, own), list + found);
-				if (_mm_movemask_epi8(_mm_cmpeq_epi32(four, none))) break;
+				const uint32_t *at = centre + offset[row] + cell + i;
+				found += list_row(at, 4, none, own, list + found);
+				if (at[3] == entry_none) break;
 			}
 	end_list(list + found);
 	return found;

@@ -47,12 +47,9 @@ INLINE float minimum(lanes x)
 	return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
 }
 
-/* What is yet to be read is not written to. */
 INLINE size_t pack(flags wanted, const uint32_t *from, uint32_t *to)
 {
-	__m128i low = _mm_loadu_si128((const __m128i *)from), high = _mm_loadu_si128((const __m128i *)(from + 4));
-	size_t kept = pack_four(low, wanted & 15, to);
-	return kept + pack_four(high, wanted >> 4, to + kept);
+	return pack_eight(_mm256_loadu_si256((const __m256i *)from), wanted, to);
 }
 
 /* Every other word of two vectors, in their order: those at even places, and those at odd ones. */
