@@ -61,7 +61,7 @@ INLINE void part_words(__m256 low, __m256 high, __m256 *even, __m256 *odd)
 	*odd = _mm256_castpd_ps(_mm256_permute4x64_pd(odds, 0xd8));
 }
 
-/* Pairs and limits are two words each; those behind the last are of state 0. */
+/* Pairs and limits are two words each; those behind the last are of the state of the first. */
 INLINE void limits_of(const struct pair_state *pair, size_t count, const struct limits *limits, uint32_t *entry,
 					  lanes *outer, lanes *inner)
 {
@@ -70,11 +70,11 @@ INLINE void limits_of(const struct pair_state *pair, size_t count, const struct 
 	__m256i low = _mm256_maskload_epi32((const int *)pair, _mm256_cmpgt_epi32(words, word));
 	__m256i high =
 		_mm256_maskload_epi32((const int *)pair + 8, _mm256_cmpgt_epi32(words, _mm256_add_epi32(word, next)));
-	__m256 entries, states, outers, inners;
+	__m256 entries, states, outers, inners, first = _mm256_castsi256_ps(_mm256_set1_epi32((int)pair->state));
 	uint32_t state[LANES] __attribute__((aligned(32)));
 	part_words(_mm256_castsi256_ps(low), _mm256_castsi256_ps(high), &entries, &states);
 	_mm256_store_ps((float *)entry, entries);
-	_mm256_store_ps((float *)state, states);
+	_mm256_store_ps((float *)state, _mm256_blendv_ps(states, first, (__m256)behind(count)));
 	double both[LANES];
 	for (int lane = 0; lane < LANES; lane++) memcpy(&both[lane], &limits[state[lane]], sizeof both[lane]);
 	part_words(_mm256_castpd_ps(_mm256_setr_pd(both[0], both[1], both[2], both[3])),
