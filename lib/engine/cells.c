@@ -9,14 +9,13 @@
 #include "engine/pack.h"
 #endif
 
-static cells_lister *choose_lister(bool packed);
-
-static const uint32_t packed_from = 32; /* entries per cell: two steps of sixteen */
+static const uint32_t gapless_from =
+	32; /* entries per cell: two steps of sixteen, of which each cell is then a multiple */
 
 bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], const int count[3], uint32_t capacity)
 {
-	*cells = (struct cells){.dimensions = dimensions, .capacity = capacity, .packed = capacity >= packed_from};
-	cells->list_rows = choose_lister(cells->packed);
+	*cells = (struct cells){.dimensions = dimensions, .capacity = capacity, .gapless = capacity >= gapless_from};
+	cells->list_rows = cells_machine(cells->gapless, 0);
 	size_t total = capacity;
 	for (int axis = 0; axis < 3; axis++) {
 		cells->periodic[axis] = periodic[axis];
@@ -57,13 +56,13 @@ static int shown(const struct cells *cells, int axis, int coordinate, int at[3],
 static bool replace(struct cells *cells, size_t index, uint32_t old, uint32_t entry)
 {
 	uint32_t *slot = cells->entry + index, at = cells->capacity;
-	if (cells->packed)
+	if (cells->gapless)
 		for (at = 0; at < cells->capacity && slot[at] != old;) at++;
 	else
 		for (uint32_t i = cells->capacity; i-- > 0;) at = slot[i] == old ? i : at;
 	if (at == cells->capacity) return false;
 	uint32_t last = at;
-	while (cells->packed && entry == entry_none && last + 1 < cells->capacity && slot[last + 1] != entry_none) last++;
+	while (cells->gapless && entry == entry_none && last + 1 < cells->capacity && slot[last + 1] != entry_none) last++;
 	slot[at] = slot[last];
 	slot[last] = entry;
 	return true;
@@ -120,8 +119,8 @@ static size_t list_rows_any(const struct cells *cells, const uint32_t *centre, c
 }
 
 /* Cell by cell, each as far as it is filled. */
-static size_t list_packed_any(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
-							  size_t length, uint32_t self, uint32_t *list)
+static size_t list_gapless_any(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							   size_t length, uint32_t self, uint32_t *list)
 {
 	size_t found = 0;
 	for (int row = 0; row < rows; row++)
@@ -156,8 +155,8 @@ AVX512_INLINE __m512i row_begin(const uint32_t *row, size_t length, __mmask16 *f
 }
 
 /* Sixteen entries at a time. */
-AVX512_INLINE size_t list_rows_of(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
-								  uint32_t self, uint32_t *list)
+AVX512_INLINE size_t list_sixteens(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
+								   uint32_t self, uint32_t *list)
 {
 	const __m512i none = _mm512_set1_epi32((int)entry_none), own = _mm512_set1_epi32((int)self);
 	size_t found = 0;
@@ -181,16 +180,16 @@ AVX512 size_t list_rows_512(const struct cells *cells, const uint32_t *centre, c
 	(void)cells;
 	switch (length) {
 	case 12:
-		return list_rows_of(centre, offset, rows, 12, self, list);
+		return list_sixteens(centre, offset, rows, 12, self, list);
 	case 24:
-		return list_rows_of(centre, offset, rows, 24, self, list);
+		return list_sixteens(centre, offset, rows, 24, self, list);
 	default:
-		return list_rows_of(centre, offset, rows, length, self, list);
+		return list_sixteens(centre, offset, rows, length, self, list);
 	}
 }
 
-AVX512 size_t list_packed_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
-							  size_t length, uint32_t self, uint32_t *list)
+AVX512 size_t list_gapless_512(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							   size_t length, uint32_t self, uint32_t *list)
 {
 	const __m512i none = _mm512_set1_epi32((int)entry_none), own = _mm512_set1_epi32((int)self);
 	size_t found = 0;
@@ -235,8 +234,8 @@ AVX2_INLINE size_t list_row(const uint32_t *row, size_t length, __m256i none, __
 	return found + pack_eight(four, used_of(four, none, own), list + found);
 }
 
-AVX2_INLINE size_t list_rows_of_eights(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length,
-									   uint32_t self, uint32_t *list)
+AVX2_INLINE size_t list_eights(const uint32_t *centre, const ptrdiff_t *offset, int rows, size_t length, uint32_t self,
+							   uint32_t *list)
 {
 	const __m256i none = _mm256_set1_epi32((int)entry_none), own = _mm256_set1_epi32((int)self);
 	size_t found = 0;
@@ -251,16 +250,16 @@ AVX2 size_t list_rows_avx2(const struct cells *cells, const uint32_t *centre, co
 	(void)cells;
 	switch (length) {
 	case 12:
-		return list_rows_of_eights(centre, offset, rows, 12, self, list);
+		return list_eights(centre, offset, rows, 12, self, list);
 	case 24:
-		return list_rows_of_eights(centre, offset, rows, 24, self, list);
+		return list_eights(centre, offset, rows, 24, self, list);
 	default:
-		return list_rows_of_eights(centre, offset, rows, length, self, list);
+		return list_eights(centre, offset, rows, length, self, list);
 	}
 }
 
-AVX2 size_t list_packed_avx2(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
-							 size_t length, uint32_t self, uint32_t *list)
+AVX2 size_t list_gapless_avx2(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
+							  size_t length, uint32_t self, uint32_t *list)
 {
 	const __m256i none = _mm256_set1_epi32((int)entry_none), own = _mm256_set1_epi32((int)self);
 	size_t found = 0;
@@ -276,15 +275,16 @@ AVX2 size_t list_packed_avx2(const struct cells *cells, const uint32_t *centre, 
 }
 #endif
 
-static cells_lister *choose_lister(bool packed)
+cells_lister *cells_machine(bool gapless, size_t number)
 {
 #ifdef __x86_64__
-	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("bmi2"))
-		return packed ? list_packed_512 : list_rows_512;
-	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"))
-		return packed ? list_packed_avx2 : list_rows_avx2;
+	bool fair = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2");
+	bool fast = fair && __builtin_cpu_supports("avx512f");
+	if (fast && number-- == 0) return gapless ? list_gapless_512 : list_rows_512;
+	if (fair && number-- == 0) return gapless ? list_gapless_avx2 : list_rows_avx2;
 #endif
-	return packed ? list_packed_any : list_rows_any;
+	if (number == 0) return gapless ? list_gapless_any : list_rows_any;
+	return NULL;
 }
 
 size_t cells_entered(const struct cells *cells, const uint16_t cell[3], const int step[3], uint32_t self,

@@ -55,8 +55,8 @@ struct cells {
 	bool periodic[3];
 	int count[3];      /* without ghosts; coordinates of real cells run from 1 to count */
 	size_t stride[3];  /* in entries */
-	uint32_t capacity; /* entries per cell: a multiple of four */
-	bool packed;       /* whether the entries of a cell stand without gaps: where cells are large and mostly empty */
+	uint32_t capacity; /* entries per cell: four, or that doubled so many times */
+	bool gapless;      /* whether the entries of a cell stand without gaps: where cells are large and mostly empty */
 	uint32_t *entry;   /* all cells, x fastest */
 	size_t entries;
 	ptrdiff_t row[9]; /* offsets, in entries, of the rows of three cells around a cell */
@@ -64,6 +64,10 @@ struct cells {
 	uint64_t changes;        /* how often a particle was entered or taken out */
 	cells_lister *list_rows; /* the fastest there is */
 };
+
+/* The fastest lister of this machine (number 0), and the others, to be compared: NULL after the last. The entries of a
+ * gapless grid's cells stand without gaps. */
+cells_lister *cells_machine(bool gapless, size_t number);
 
 /* Makes an empty grid; false when there is no memory for it. */
 bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], const int count[3], uint32_t capacity);

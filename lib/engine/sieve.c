@@ -1,7 +1,5 @@
 #include "engine/sieve.h"
 
-extern const struct sieve_machine sieve_any, sieve_avx2, sieve_avx512;
-
 const struct sieve_machine *sieve_machine(size_t number)
 {
 #ifdef __x86_64__

@@ -130,4 +130,9 @@ struct sieve_machine {
 };
 const struct sieve_machine *sieve_machine(size_t number);
 
+extern const struct sieve_machine sieve_any;
+#ifdef __x86_64__
+extern const struct sieve_machine sieve_avx2, sieve_avx512;
+#endif
+
 #endif

@@ -104,4 +104,10 @@ static void cast(struct shadow *shadow, double x, double y, double z, double tim
 
 #include "engine/sieve_passes.inl"
 
-const struct sieve_machine sieve_any = {"portable", pass, hold, check, cast};
+#ifdef __wasm_simd128__
+#define NAME "WebAssembly SIMD"
+#else
+#define NAME "portable"
+#endif
+
+const struct sieve_machine sieve_any = {NAME, pass, hold, check, cast};

@@ -103,15 +103,8 @@ INLINE void fetch(const struct shadow *shadow, const uint32_t *entry, lanes fiel
 	}
 }
 
-MACHINE static void cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
-						 double vz, double radius)
-{
-	__m256 row =
-		_mm256_setr_ps((float)x, (float)y, (float)z, (float)time, (float)vx, (float)vy, (float)vz, (float)radius);
-	_mm256_store_ps((float *)shadow, row);
-}
-
 #include "engine/sieve_passes.inl"
+#include "engine/sieve_x86.inl"
 
 const struct sieve_machine sieve_avx2 = {"AVX2", pass, hold, check, cast};
 #endif

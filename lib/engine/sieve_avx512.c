@@ -102,15 +102,8 @@ INLINE void limits_of(const struct pair_state *pair, size_t count, const struct 
 	*inner = (lanes)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), there, state, &limits->inner, sizeof *limits);
 }
 
-MACHINE static void cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
-						 double vz, double radius)
-{
-	__m256 row =
-		_mm256_setr_ps((float)x, (float)y, (float)z, (float)time, (float)vx, (float)vy, (float)vz, (float)radius);
-	_mm256_store_ps((float *)shadow, row);
-}
-
 #include "engine/sieve_passes.inl"
+#include "engine/sieve_x86.inl"
 
 const struct sieve_machine sieve_avx512 = {"AVX-512", pass, hold, check, cast};
 #endif

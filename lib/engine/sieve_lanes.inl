@@ -1,18 +1,20 @@
-/* What the sieve of every machine is made of: some pairs at a time, LANES of them, a divisor of sixteen, in vectors that
- * the machine holds whole; MACHINE is the attribute of its functions. Then come the machine's own steps, by these names,
- * of which the simple ones may be those below:
+/* What the sieve of every machine is made of: some pairs at a time, LANES of them, a divisor of sixteen, in vectors
+ *that the machine holds whole; MACHINE is the attribute of its functions. Then come the machine's own steps, by these
+ *names, some of which may be those of engine/sieve_vectors.inl:
  *
  *	fetch          shadows, turned over: field by field
  *	root
  *	near_root      from tiny to huge: within 2^-11 of itself,
  *	near_inverse   and so is this: many times quicker than root and quotient
- *	less, pick     a comparison, as the machine has its outcome (`mask`), and what is chosen by it
+ *	mask           the type of a comparison's outcome
+ *	less, pick     a comparison, and what is chosen by it
  *	behind         which lanes are behind the last of `count`
  *	bits           a mask as a bit for each lane
  *	larger         of each two, or the second where the first is no number
  *	minimum        of all
  *	pack           what is wanted, close together: from a place to the same or an earlier one; how many
- *	limits_of      the entries of pairs, or as many as there are and then 0, and their limits
+ *	limits_of      the entries of pairs, 0 behind the last of them, and their limits
+ *	cast           of a shadow
  *
  * and at last engine/sieve_passes.inl, which makes of them what engine/sieve.h promises. */
 #include "engine/sieve.h"

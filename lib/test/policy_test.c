@@ -104,7 +104,7 @@ static struct scene_recipe random_gas(struct random_state *random, char arithmet
 	return recipe;
 }
 
-/* Pairs are rejected in binary32 only where the method, asked of every pair, would have found nothing sooner. */
+/* By rewind and search a pair is rejected in binary32 only where the method, asked of it, would have found nothing. */
 static void the_sieve_changes_nothing(void **state)
 {
 	(void)state;
@@ -127,8 +127,7 @@ static void the_sieve_changes_nothing(void **state)
 		struct touchstone_status without = run(&recipe, arithmetic, method, events, &seen);
 		if (with.events != without.events || with.digest != without.digest || with.verdict != without.verdict)
 			fail_msg("gas %d, %s, %s, %d dimensions, %zu particles, density %g, restitution %g, %llu events: %016llx "
-					 "with the "
-					 "sieve, %016llx without",
+					 "with the sieve, %016llx without",
 					 k, arithmetic, method, recipe.dimensions, recipe.particle_count, recipe.density,
 					 recipe.restitution.coefficient, (unsigned long long)events, (unsigned long long)with.digest,
 					 (unsigned long long)without.digest);

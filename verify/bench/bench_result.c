@@ -227,8 +227,8 @@ static void add_notes(struct result *result, const struct findings *findings, co
 	else
 		result_note(result,
 					"Instructions are counted by valgrind's callgrind within the event loop alone, without start-up "
-					"and equilibration. Valgrind knows no AVX-512, so the sieve takes its AVX2 path there, and the "
-					"counts are of that; `extended` is computed in 53 bits there.%s",
+					"and equilibration. Valgrind knows no AVX-512, so the sieve and the cells take their AVX2 paths there, and the "
+					"counts are of those; `extended` is computed in 53 bits there.%s",
 					effort->full ? "" : " Only --full counts more than 20 000 spheres.");
 	if (findings->cores.count < 2)
 		result_note(result, "Two runs on two cores were not measured: the program was given one core only.");

@@ -54,23 +54,27 @@ double deep_overlaps_depth(const struct deep_overlaps *overlaps, const struct de
 static int by_place(const void *one, const void *other)
 {
 	const double *a = one, *b = other;
-	return (a[0] > b[0]) - (a[0] < b[0]);
+	int places = (a[0] > b[0]) - (a[0] < b[0]);
+	return places ? places : (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-/* Sorts the particles; the largest diameter is returned. */
-static double sort(struct deep_overlaps *overlaps)
+static void sort(struct deep_overlaps *overlaps)
 {
 	const struct touchstone_scene *scene = overlaps->scene;
-	double widest = 0;
 	for (uint32_t p = 0; p < scene->particle_count; p++) {
 		double x = overlaps->position[p][0];
 		if (scene->periodic[0]) x -= scene->box[0] * rint(x / scene->box[0]);
 		overlaps->sorted[p][0] = x;
 		overlaps->sorted[p][1] = p;
-		widest = fmax(widest, diameter(overlaps, p));
 	}
 	qsort(overlaps->sorted, scene->particle_count, sizeof *overlaps->sorted, by_place);
-	return widest;
+}
+
+static double largest_diameter(const struct deep_overlaps *overlaps)
+{
+	double largest = 0;
+	for (uint32_t p = 0; p < overlaps->scene->particle_count; p++) largest = fmax(largest, diameter(overlaps, p));
+	return largest;
 }
 
 static void look_at_pair(const struct deep_overlaps *overlaps, uint32_t p, uint32_t q, struct deep_overlap *deepest)
@@ -83,7 +87,8 @@ static void look_at_pairs(struct deep_overlaps *overlaps, struct deep_overlap *d
 {
 	const size_t count = overlaps->scene->particle_count;
 	const double(*sorted)[2] = (const double(*)[2])overlaps->sorted;
-	const double reach = sort(overlaps) * deepest->depth, box = overlaps->scene->box[0];
+	const double reach = largest_diameter(overlaps) * deepest->depth, box = overlaps->scene->box[0];
+	sort(overlaps);
 	for (size_t i = 0; i < count; i++)
 		for (size_t step = 1; step < count; step++) {
 			bool around = i + step >= count;

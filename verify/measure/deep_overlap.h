@@ -19,7 +19,7 @@ struct deep_overlap {
 /* Where particles are looked at; positions are the owner's to fill. */
 struct deep_overlaps {
 	const struct touchstone_scene *scene;
-	double (*position)[3]; /* absolute, one each */
+	double (*position)[3]; /* absolute and finite, one each */
 	double (*sorted)[2];   /* place on the first axis, within the box, and number */
 };
 

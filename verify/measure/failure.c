@@ -21,7 +21,7 @@ struct run {
 	struct deep_overlaps overlaps;
 	bool elastic;
 	struct conservation begin;
-	double brought; /* energy, by kicks and thermal walls, until then */
+	double brought; /* until then: see brought_in */
 	double lowest;  /* energy, over its scale at the start and from there */
 	double clock;   /* at the last check */
 	bool keeps;     /* a state from which it may be repeated: */
@@ -41,7 +41,8 @@ static bool is_elastic(const struct touchstone_scene *scene)
 	return elastic;
 }
 
-static double brought(const struct touchstone_status *status)
+/* Energy, by kicks and thermal walls. */
+static double brought_in(const struct touchstone_status *status)
 {
 	return status->kicked_energy + status->thermostat_energy;
 }
@@ -59,7 +60,7 @@ static bool run_begin(struct run *run, const struct touchstone_scene *scene, dou
 	touchstone_status(run->engine, &status);
 	run->clock = status.time;
 	run->begin = conservation_of(scene, run->engine);
-	run->brought = brought(&status);
+	run->brought = brought_in(&status);
 	return true;
 }
 
@@ -126,7 +127,8 @@ static bool judge_energy(struct run *run, const struct conservation *now, struct
 	touchstone_status(run->engine, &status);
 	double change = conservation_energy_drift(&run->begin, now);
 	if (!isfinite(change)) return false; /* at rest from the start */
-	change -= (brought(&status) - run->brought) / run->begin.energy_scale;
+	change -= (brought_in(&status) - run->brought) / run->begin.energy_scale;
+	change *= run->begin.energy_scale / fmax(run->begin.energy_scale, now->energy_scale);
 	run->lowest = fmin(run->lowest, change);
 	double gain = run->elastic ? change : change - run->lowest;
 	if (gain > failure_conserved)
@@ -139,7 +141,8 @@ static bool judge_energy(struct run *run, const struct conservation *now, struct
 /* Only particles act on particles along this axis, and by what a contact exchanges. */
 static bool keeps_momentum(const struct touchstone_scene *scene, int axis)
 {
-	bool keeps = scene->acceleration[axis] == 0 && scene->thermostat == 0 && !scene->convection.temperatures;
+	bool kicked = scene->convection.temperatures && axis == scene->dimensions - 1;
+	bool keeps = scene->acceleration[axis] == 0 && scene->thermostat == 0 && !kicked;
 	for (size_t w = 0; w < scene->wall_count; w++) keeps &= scene->walls[w].normal[axis] == 0;
 	return keeps;
 }
@@ -156,18 +159,11 @@ static bool judge_momentum(const struct run *run, const struct conservation *now
 	return false;
 }
 
-static bool judge_conserved(struct run *run, struct failure *failure)
-{
-	const struct conservation now = conservation_of(run->scene, run->engine);
-	return judge_energy(run, &now, failure) || judge_momentum(run, &now, failure);
-}
-
 /* Judges the state of a run between events. An overlap is left in `deep`, to be judged later. */
 static bool judge(struct run *run, struct failure *failure, struct deep_overlap *deep)
 {
 	struct touchstone_status status;
 	touchstone_status(run->engine, &status);
-	deep->depth = 1;
 	if (status.verdict == TOUCHSTONE_HALTED) return fail(run, failure, FAILURE_HALTS, "%s", status.reason);
 	if (status.verdict == TOUCHSTONE_DIVERGED) return fail(run, failure, FAILURE_NOT_FINITE, "%s", status.reason);
 	if (!read_positions(run)) return fail(run, failure, FAILURE_NOT_FINITE, "a coordinate is no longer finite");
@@ -177,11 +173,11 @@ static bool judge(struct run *run, struct failure *failure, struct deep_overlap 
 	if (deep_overlaps_find(&run->overlaps, failure_depth, deep))
 		return fail(run, failure, FAILURE_PASSES, "particle %u is at %.3g of the contact distance from %s %u",
 					deep->first, deep->depth, deep->wall ? "wall" : "particle", deep->second);
-	if (judge_conserved(run, failure)) return true;
+	const struct conservation now = conservation_of(run->scene, run->engine);
+	if (judge_energy(run, &now, failure)) return true;
 	if (status.verdict == TOUCHSTONE_COLLAPSED)
-		return run->elastic ? fail(run, failure, FAILURE_LOOPS, "%s", status.reason)
-							: fail(run, failure, FAILURE_REST, "%s", status.reason);
-	return false;
+		return fail(run, failure, run->elastic ? FAILURE_LOOPS : FAILURE_REST, "%s", status.reason);
+	return judge_momentum(run, &now, failure);
 }
 
 /* Advances by so many events, no further than the limits; false when nothing more is to be run. */

@@ -6,14 +6,17 @@
  *	not finite       a coordinate or a speed is no longer a number
  *	loops            events go on but time does not (the engine's verdict), in a scene that loses no energy
  *	runs back        the clock is earlier than at the check before
- *	gains energy     of the energy at the start (its scale: conservation.h), more than 1 % has come in
+ *	gains energy     of the energy's scale (conservation.h), at the start or now, more than 1 % has come in, besides
+ *	                 what kicks and thermal walls bring
  *	drifts           or, in a scene that loses none, has gone; or the momentum along an axis on which nothing outside
- *	                 acts has changed by more than 1 % of its scale now: a gas that cools must not end as a flock
+ *	                 acts has changed by more than 1 % of its scale now: a gas that cools must not end as a flock, which
+ *	                 it does in any arithmetic when nothing is left but what rounding made of its first speeds
  *	entangles        two particles are nearer than 9/10 of their contact distance, and overlap at the next ten checks
  *too penetrates       or have parted by then; or a particle is so deep in a wall
  *
- * Where the scene itself loses energy, to come to rest is right, and so is a verdict of collapse. Once something is
- * wrong, the run is repeated from the last check that found nothing, event by event, for the first event that shows it.
+ * Where the scene itself loses energy, to come to rest is right, and so is a verdict of collapse, flock or not. Once
+ *something is wrong, the run is repeated from the last check that found nothing, event by event, for the first event
+ *that shows it.
  */
 #ifndef VERIFY_FAILURE_H
 #define VERIFY_FAILURE_H
@@ -46,7 +49,7 @@ struct failure {
 static const double failure_conserved = 0.01, failure_depth = 0.9; /* the bounds above */
 
 /* Runs the scene, `collisions` elastic ones per particle first, and judges. False with one line in `error` when no
- * engine can be made. Memory: three numbers a particle and axis. */
+ * engine can be made. Memory: five numbers a particle, and the states it keeps. */
 bool failure_find(const struct touchstone_scene *scene, double collisions, const char *arithmetic, const char *method,
 				  const struct touchstone_limits *limits, const struct watch *watch, struct failure *failure,
 				  char error[160]);

@@ -50,7 +50,7 @@ static void furnish(struct room *room, struct random_state *random)
 static void scatter(const struct room *room, struct random_state *random, double (*position)[3])
 {
 	for (size_t p = 0; p < room->scene.particle_count; p++)
-		for (int axis = 0; axis < room->scene.dimensions; axis++)
+		for (int axis = 0; axis < 3; axis++)
 			position[p][axis] = room->scene.box[axis] * (3 * random_uniform(random) - 1.5);
 }
 
