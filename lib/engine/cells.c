@@ -9,8 +9,8 @@
 #include "engine/pack.h"
 #endif
 
-static const uint32_t gapless_from =
-	32; /* entries per cell: two steps of sixteen, of which each cell is then a multiple */
+/* Entries per cell: two steps of sixteen, of which each cell is then a multiple. */
+static const uint32_t gapless_from = 32;
 
 bool cells_create(struct cells *cells, int dimensions, const bool periodic[3], const int count[3], uint32_t capacity)
 {

@@ -91,8 +91,7 @@ static void cells_change_nothing(void **state)
 	assert_true(back > 0.01); /* or nothing was tried */
 }
 
-/* Random gases in few bits, where overlaps and going back are frequent and the sieve's bounds have something to bound.
- */
+/* Random gases in few bits, where overlaps and going back are frequent. */
 static struct scene_recipe random_gas(struct random_state *random, char arithmetic[20])
 {
 	int dimensions = 2 + (int)random_below(random, 2), bits = 6 + (int)random_below(random, 20);

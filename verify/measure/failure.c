@@ -128,13 +128,13 @@ static bool judge_energy(struct run *run, const struct conservation *now, struct
 	double change = conservation_energy_drift(&run->begin, now);
 	if (!isfinite(change)) return false; /* at rest from the start */
 	change -= (brought_in(&status) - run->brought) / run->begin.energy_scale;
-	change *= run->begin.energy_scale / fmax(run->begin.energy_scale, now->energy_scale);
 	run->lowest = fmin(run->lowest, change);
-	double gain = run->elastic ? change : change - run->lowest;
+	double scale = fmax(1, now->energy_scale / run->begin.energy_scale);
+	double gain = (run->elastic ? change : change - run->lowest) / scale;
 	if (gain > failure_conserved)
 		return fail(run, failure, FAILURE_GAINS_ENERGY, "the energy has risen by %.3g of its scale", gain);
-	if (run->elastic && change < -failure_conserved)
-		return fail(run, failure, FAILURE_DRIFTS, "the energy has fallen by %.3g of its scale", -change);
+	if (run->elastic && gain < -failure_conserved)
+		return fail(run, failure, FAILURE_DRIFTS, "the energy has fallen by %.3g of its scale", -gain);
 	return false;
 }
 

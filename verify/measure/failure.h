@@ -14,9 +14,10 @@
  *	entangles        two particles are nearer than 9/10 of their contact distance, and overlap at the next ten checks
  *too penetrates       or have parted by then; or a particle is so deep in a wall
  *
- * Where the scene itself loses energy, to come to rest is right, and so is a verdict of collapse, flock or not. Once
- *something is wrong, the run is repeated from the last check that found nothing, event by event, for the first event
- *that shows it.
+ * Where the scene itself loses energy, to come to rest is right, and so is a verdict of collapse, flock or not.
+ *
+ * Once something is wrong, the run is repeated from the last check that found nothing, event by event, for the first
+ * event that shows it.
  */
 #ifndef VERIFY_FAILURE_H
 #define VERIFY_FAILURE_H

@@ -13,6 +13,7 @@
 #include "measure/failure.h"
 #include "program.h"
 #include "store/scene_file.h"
+#include "test/gas.h"
 
 enum { EVENTS = 2000 };
 
@@ -88,6 +89,33 @@ static void what_is_conserved_is_kept(void **state)
 	assert_int_equal(judged_within(20000, "convection", "binary64", "stable").kind, FAILURE_NONE);
 }
 
+/* Cold discs lose most of what they have before thermal walls heat them a thousand times. */
+static void heat_is_no_fault(void **state)
+{
+	(void)state;
+	static const double restitutions[] = {1, 0.9, 0.6};
+	static const char *const arithmetics[] = {"short:16", "binary64"};
+	for (int k = 0; k < 6; k++) {
+		struct scene_recipe recipe = gas(2, 100, 0.3);
+		struct touchstone_scene scene;
+		struct scene_error complaint;
+		struct failure failure;
+		char error[160];
+		recipe.boundary[0] = recipe.boundary[1] = SCENE_WALLS;
+		recipe.restitution.coefficient = restitutions[k / 2];
+		recipe.thermostat = 1;
+		recipe.temperature = 1e-3;
+		if (!scene_build(&recipe, 1, &scene, &complaint)) fail_msg("%s %s", complaint.key, complaint.text);
+		const struct touchstone_limits limits = {20000, INFINITY, NULL};
+		if (!failure_find(&scene, 0, arithmetics[k % 2], "stable", &limits, NULL, &failure, error))
+			fail_msg("%s", error);
+		if (failure.kind != FAILURE_NONE)
+			fail_msg("restitution %g, %s: %s at event %llu: %s", restitutions[k / 2], arithmetics[k % 2],
+					 failure_word(failure.kind), (unsigned long long)failure.event, failure.text);
+		scene_free(&scene);
+	}
+}
+
 static void commands_show_their_cells(void **state)
 {
 	(void)state;
@@ -136,11 +164,9 @@ static void traces_mark_events(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(what_is_known_to_go_wrong_is_found),
-		cmocka_unit_test(an_end_is_no_failure),
-		cmocka_unit_test(what_is_conserved_is_kept),
-		cmocka_unit_test(commands_show_their_cells),
-		cmocka_unit_test(traces_mark_events),
+		cmocka_unit_test(what_is_known_to_go_wrong_is_found), cmocka_unit_test(an_end_is_no_failure),
+		cmocka_unit_test(what_is_conserved_is_kept),          cmocka_unit_test(heat_is_no_fault),
+		cmocka_unit_test(commands_show_their_cells),          cmocka_unit_test(traces_mark_events),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
