@@ -244,6 +244,7 @@ AVX2_INLINE size_t list_eights(const uint32_t *centre, const ptrdiff_t *offset, 
 	return found;
 }
 
+/* The same for rows of eights and fours: without these branches 1.05 times the instructions of dense hard spheres. */
 AVX2 size_t list_rows_avx2(const struct cells *cells, const uint32_t *centre, const ptrdiff_t *offset, int rows,
 						   size_t length, uint32_t self, uint32_t *list)
 {
