@@ -172,13 +172,9 @@ static void foresee(struct touchstone_engine *engine, const uint32_t *particle, 
 {
 	struct shadows *shadows = &engine->shadows;
 	struct sieve_outlook outlook[2];
-	uint32_t images = 0;
 	for (int p = 0; p < particles; p++) {
-		forecast[p].soonest[0] = INFINITY;
-		for (uint32_t k = 0; k < forecast[p].count; k++) images |= forecast[p].pair[k].entry;
 		outlook[p] = outlook_of(engine, particle[p], &forecast[p]);
 	}
-	shadows->sieve.images = images >> ENTRY_BITS;
 	shadows->sieve.age = age_of(engine, particle, particles);
 	shadows->machine->hold(&shadows->sieve, shadows->shadow, outlook, particles);
 	for (int p = 0; p < particles; p++) {

@@ -58,7 +58,7 @@ struct sieve {
 	float late;     /* error of its event times */
 	float heard;    /* pairs no farther apart than so many times their contact distance pass in any case; 0: none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
-	bool images;    /* whether any entry may be an image */
+	bool images;    /* whether any entry of a search, or of those looked over, may be an image */
 	bool timed;     /* whether searches are told when the last that they keep meets */
 };
 
@@ -115,6 +115,10 @@ struct sieve_outlook {
 typedef void sieve_hold(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
 						int outlooks);
 
+/* Of so many times that it has written: writes the numbers of those not later than `latest`, nor INFINITY, in their order,
+ * to `kept`, which has room for 16 more, and returns how many there are. */
+typedef size_t sieve_sooner(const float *soonest, size_t count, float latest, uint32_t *kept);
+
 /* Writes a shadow whole: what is written in pieces is slow to be read back whole. */
 typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,
 						double vz, double radius);
@@ -125,6 +129,7 @@ struct sieve_machine {
 	const char *name;
 	sieve_pass *pass;
 	sieve_hold *hold;
+	sieve_sooner *sooner;
 	sieve_check *check;
 	sieve_cast *cast;
 };

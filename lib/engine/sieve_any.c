@@ -33,6 +33,11 @@ INLINE lanes pick(mask which, lanes yes, lanes no)
 	return (lanes)((which & (whole_lanes)yes) | (~which & (whole_lanes)no));
 }
 
+INLINE bool any(whole_lanes words)
+{
+	return words[0] | words[1] | words[2] | words[3];
+}
+
 INLINE flags bits(mask which)
 {
 #ifdef __wasm_simd128__
@@ -110,4 +115,4 @@ static void cast(struct shadow *shadow, double x, double y, double z, double tim
 #define NAME "portable"
 #endif
 
-const struct sieve_machine sieve_any = {NAME, pass, hold, check, cast};
+const struct sieve_machine sieve_any = {NAME, pass, hold, sooner, check, cast};

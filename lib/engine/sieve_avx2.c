@@ -30,6 +30,11 @@ INLINE lanes pick(mask which, lanes yes, lanes no)
 	return (lanes)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)which);
 }
 
+INLINE bool any(whole_lanes words)
+{
+	return !_mm256_testz_si256((__m256i)words, (__m256i)words);
+}
+
 INLINE flags bits(mask which)
 {
 	return (flags)_mm256_movemask_ps((__m256)which);
@@ -106,5 +111,5 @@ INLINE void fetch(const struct shadow *shadow, const uint32_t *entry, lanes fiel
 #include "engine/sieve_passes.inl"
 #include "engine/sieve_x86.inl"
 
-const struct sieve_machine sieve_avx2 = {"AVX2", pass, hold, check, cast};
+const struct sieve_machine sieve_avx2 = {"AVX2", pass, hold, sooner, check, cast};
 #endif

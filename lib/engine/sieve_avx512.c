@@ -25,6 +25,11 @@ INLINE mask behind(size_t count)
 	return count < LANES ? all_lanes & ~((1u << count) - 1) : 0;
 }
 
+INLINE bool any(whole_lanes words)
+{
+	return _mm512_test_epi32_mask((__m512i)words, (__m512i)words);
+}
+
 INLINE flags bits(mask which)
 {
 	return which;
@@ -105,5 +110,5 @@ INLINE void limits_of(const struct pair_state *pair, size_t count, const struct 
 #include "engine/sieve_passes.inl"
 #include "engine/sieve_x86.inl"
 
-const struct sieve_machine sieve_avx512 = {"AVX-512", pass, hold, check, cast};
+const struct sieve_machine sieve_avx512 = {"AVX-512", pass, hold, sooner, check, cast};
 #endif

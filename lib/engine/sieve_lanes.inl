@@ -8,6 +8,7 @@
  *	near_inverse   and so is this: many times quicker than root and quotient
  *	mask           the type of a comparison's outcome
  *	less, pick     a comparison, and what is chosen by it
+ *	any            whether any word is not 0
  *	behind         which lanes are behind the last of `count`
  *	bits           a mask as a bit for each lane
  *	larger         of each two, or the second where the first is no number
@@ -19,6 +20,7 @@
  * and at last engine/sieve_passes.inl, which makes of them what engine/sieve.h promises. */
 #include "engine/sieve.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -33,3 +35,16 @@ typedef uint32_t flags; /* a bit for each lane */
 
 static const flags all_lanes = (1u << LANES) - 1;
 static const float u = 0x1p-24f, tiny = 0x1p-120f, huge = 0x1p120f;
+
+INLINE lanes all(float x)
+{
+	return x - (lanes){0}; /* 0 + x would have to be added up, for the sake of -0 */
+}
+
+/* Of the lanes, from 0. */
+INLINE whole_lanes numbers(void)
+{
+	whole_lanes number;
+	for (int lane = 0; lane < LANES; lane++) number[lane] = lane;
+	return number;
+}

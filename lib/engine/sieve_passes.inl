@@ -12,6 +12,14 @@ INLINE lanes shift_of(whole_lanes entry, int axis, float box)
 	return __builtin_convertvector((code & 1) - (code >> 1), lanes) * box;
 }
 
+/* Whether entries are images of particles. */
+INLINE bool any_image(const uint32_t *entry)
+{
+	whole_lanes which;
+	memcpy(&which, entry, sizeof which);
+	return any(which & (int32_t)~ENTRY_PARTICLE);
+}
+
 /* The particle that searches, and the factors of its bounds that are the same for all others. */
 struct own {
 	struct shadow shadow;
@@ -40,11 +48,11 @@ struct others {
 };
 
 INLINE struct others others_of(const struct sieve *sieve, const struct own *own, const struct shadow *shadow,
-							   const uint32_t *entry)
+							   const uint32_t *entry, bool images)
 {
 	lanes field[FIELDS];
 	fetch(shadow, entry, field);
-	if (sieve->images) {
+	if (images) {
 		whole_lanes which;
 		memcpy(&which, entry, sizeof which);
 		for (int axis = 0; axis < 3; axis++) field[axis] += shift_of(which, axis, sieve->box[axis]);
@@ -52,7 +60,7 @@ INLINE struct others others_of(const struct sieve *sieve, const struct own *own,
 	const float n = sieve->roundoff, age = sieve->age;
 	const lanes zero = {0};
 	lanes wait = sieve->now - field[3];
-	struct others others = {.radius = field[7], .s = zero + own->speed, .a = zero, .b = zero, .rr = zero};
+	struct others others = {.radius = field[7], .s = all(own->speed), .a = zero, .b = zero, .rr = zero};
 	for (int axis = 0; axis < 3; axis++) {
 		lanes theirs = field[4 + axis], v = own->shadow.velocity[axis] - theirs;
 		lanes r = own->shadow.position[axis] - (field[axis] + theirs * wait);
@@ -88,10 +96,10 @@ INLINE struct meeting meeting_of(const struct others *o, lanes c, lanes q)
 	lanes error_d = 2 * (o->s * o->s) * q + tiny, d = o->b * o->b - o->a * c, most = d + error_d, least = d - error_d;
 	struct meeting meeting;
 	meeting.misses = less(error_b, o->b) | less(most, zero);
-	lanes end = near_root(larger(most, zero + tiny));
+	lanes end = near_root(larger(most, all(tiny)));
 	meeting.low = (c - q) * near_inverse(error_b - o->b + end) * (1 - fine);
-	meeting.sure = less(o->b + error_b, zero) & less(zero + tiny, least) & less(least, zero + huge) & less(q, c);
-	lanes begin = near_root(larger(least, zero + tiny));
+	meeting.sure = less(o->b + error_b, zero) & less(all(tiny), least) & less(least, all(huge)) & less(q, c);
+	lanes begin = near_root(larger(least, all(tiny)));
 	meeting.high = (c + q) * near_inverse(begin - o->b - error_b) * (1 + fine);
 	return meeting;
 }
@@ -134,12 +142,13 @@ INLINE void tell_time(struct sieve_search *search, const struct meeting *meeting
 INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
 					  struct progress *progress, int searches, size_t at)
 {
-	const lanes zero = {0}, never = zero + INFINITY;
+	const lanes never = all(INFINITY);
 	struct others others[2];
 	struct meeting meeting[2];
 	lanes square[2];
 	mask none[2], out[2];
-	for (int k = 0; k < searches; k++) others[k] = others_of(sieve, &progress[k].own, shadow, search[k].entry + at);
+	for (int k = 0; k < searches; k++)
+		others[k] = others_of(sieve, &progress[k].own, shadow, search[k].entry + at, sieve->images);
 	for (int k = 0; k < searches; k++) {
 		lanes contact = progress[k].own.shadow.radius + others[k].radius;
 		square[k] = contact * contact;
@@ -154,7 +163,7 @@ INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, st
 	for (int k = 0; k < searches && sieve->by_order; k++) {
 		progress[k].latest =
 			latest_of(sieve, progress[k].latest, pick(meeting[k].sure & ~out[k], meeting[k].high, never));
-		mask late = less(zero + progress[k].latest, meeting[k].low);
+		mask late = less(all(progress[k].latest), meeting[k].low);
 		out[k] |= sieve->heard > 0 ? late & unheard(sieve, &others[k], square[k]) : late;
 	}
 	for (int k = 0; k < searches && sieve->timed; k++) tell_time(&search[k], &meeting[k], bits(~out[k]) & all_lanes);
@@ -207,29 +216,28 @@ INLINE lanes bound_of(const struct sieve *sieve, const struct others *o, lanes i
 	lanes over = pick(meets, c_meets - q, pick(opens, -c, end - b));
 	lanes under = pick(meets, error_b - o->b + end, pick(opens, b + end, a));
 	lanes low = over / under * (1 - fine);
-	return pick(meets | (misses & parts), low, pick(misses, zero + INFINITY, zero));
+	return pick(meets | (misses & parts), low, pick(misses, all(INFINITY), zero));
 }
 
 /* The next lanes of one outlook, or of two: step by step together. */
 INLINE void hold_next(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
 					  const struct own *own, float *least, int outlooks, size_t at)
 {
-	const lanes zero = {0};
 	lanes outer[2], inner[2];
 	struct others others[2];
 	for (int k = 0; k < outlooks; k++) {
 		uint32_t entry[LANES] __attribute__((aligned(64)));
 		limits_of(outlook[k].pair + at, outlook[k].count - at, outlook[k].limits, entry, &outer[k], &inner[k]);
-		others[k] = others_of(sieve, &own[k], shadow, entry);
+		others[k] = others_of(sieve, &own[k], shadow, entry, any_image(entry));
 	}
 	for (int k = 0; k < outlooks; k++) {
 		lanes low = bound_of(sieve, &others[k], inner[k], outer[k]);
-		low = pick(behind(outlook[k].count - at), zero + INFINITY, low);
+		low = pick(behind(outlook[k].count - at), all(INFINITY), low);
 		memcpy(outlook[k].soonest + at, &low, sizeof low);
 		float least_here = minimum(low);
 		if (!(least_here < least[k])) continue;
 		least[k] = least_here;
-		outlook[k].first = at + (size_t)__builtin_ctz(bits(~less(zero + least_here, low)));
+		outlook[k].first = at + (size_t)__builtin_ctz(bits(~less(all(least_here), low)));
 	}
 }
 
@@ -263,18 +271,34 @@ MACHINE static size_t check(const struct sieve *sieve, const struct shadow *shad
 	const lanes zero = {0};
 	size_t found = 0;
 	for (size_t k = 0; k < count; k += LANES) {
-		struct others others = others_of(sieve, &own, shadow, held->entry + k);
+		struct others others = others_of(sieve, &own, shadow, held->entry + k, sieve->images);
 		lanes inner, outer;
 		memcpy(&inner, held->inner + k, sizeof inner);
 		memcpy(&outer, held->outer + k, sizeof outer);
 		lanes least = inner * inner, most = outer * outer;
 		mask beyond = ~less(zero, inner) | less(error_of_c(sieve, &others, least), others.rr - least);
-		mask within = ~less(outer, zero + INFINITY) | less(error_of_c(sieve, &others, most), most - others.rr);
+		mask within = ~less(outer, all(INFINITY)) | less(error_of_c(sieve, &others, most), most - others.rr);
 		mask out = behind(count - k) | (beyond & within);
+		whole_lanes number = numbers() + (int32_t)k;
 		uint32_t each[LANES];
-		for (uint32_t lane = 0; lane < LANES; lane++) each[lane] = (uint32_t)k + lane;
+		memcpy(each, &number, sizeof each);
 		flags in = bits(~out) & all_lanes;
 		if (in) found += pack(in, each, kept + found);
+	}
+	return found;
+}
+
+MACHINE static size_t sooner(const float *soonest, size_t count, float latest, uint32_t *kept)
+{
+	const lanes last = all(latest < FLT_MAX ? latest : FLT_MAX);
+	size_t found = 0;
+	for (size_t k = 0; k < count; k += LANES) {
+		lanes low;
+		memcpy(&low, soonest + k, sizeof low);
+		whole_lanes number = numbers() + (int32_t)k;
+		uint32_t each[LANES];
+		memcpy(each, &number, sizeof each);
+		found += pack(bits(~less(last, low)) & all_lanes, each, kept + found);
 	}
 	return found;
 }

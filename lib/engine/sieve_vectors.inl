@@ -8,7 +8,5 @@ INLINE mask less(lanes a, lanes b)
 
 INLINE mask behind(size_t count)
 {
-	whole_lanes number;
-	for (int lane = 0; lane < LANES; lane++) number[lane] = lane;
-	return number >= (int32_t)(count < LANES ? count : LANES);
+	return numbers() >= (int32_t)(count < LANES ? count : LANES);
 }

@@ -21,20 +21,33 @@ static void consider_partner(struct touchstone_engine *engine, uint32_t i, struc
 	consider(engine, i, later, wait, innermost ? TOUCHSTONE_CONTACT : TOUCHSTONE_CAPTURE, entry, plan);
 }
 
+/* Weighs the events of particle i with one of the pairs that were foreseen. */
+static inline void consider_foreseen(struct touchstone_engine *engine, uint32_t i, const struct forecast *forecast,
+									 uint32_t k, struct plan *plan)
+{
+	struct pair_state pair = {forecast->pair[k].entry, forecast->pair[k].state - forecast->more};
+	if (pair.state)
+		consider_partner(engine, i, pair, plan);
+	else
+		consider_pairs(engine, i, &pair.entry, 1, plan);
+}
+
 /* Weighs the events of particle i with so many pairs: with that which may come first, and then with those that may come
  * before it. */
 static void consider_forecast(struct touchstone_engine *engine, uint32_t i, const struct forecast *forecast,
 							  struct plan *plan)
 {
-	float latest = latest_planned(engine, plan);
-	for (uint32_t k = 0, next = forecast->first; k <= forecast->count; next = k++) {
-		bool again = k > 0 && next == forecast->first;
-		if (again || forecast->soonest[next] > latest || forecast->soonest[next] == INFINITY) continue;
-		struct pair_state pair = {forecast->pair[next].entry, forecast->pair[next].state - forecast->more};
-		if (pair.state)
-			consider_partner(engine, i, pair, plan);
-		else
-			consider_pairs(engine, i, &pair.entry, 1, plan);
+	uint32_t early[FORESEEN + 16], first = forecast->first;
+	if (!forecast->count) return;
+	float latest = latest_planned(engine, plan), soonest = forecast->soonest[first];
+	if (!(soonest > latest) && soonest != INFINITY) {
+		consider_foreseen(engine, i, forecast, first, plan);
+		latest = latest_planned(engine, plan);
+	}
+	size_t some = engine->shadows.machine->sooner(forecast->soonest, forecast->count, latest, early);
+	for (size_t k = 0; k < some; k++) {
+		if (early[k] == first || forecast->soonest[early[k]] > latest) continue;
+		consider_foreseen(engine, i, forecast, early[k], plan);
 		latest = latest_planned(engine, plan);
 	}
 }

@@ -210,6 +210,31 @@ static long double parting(const struct particle *a, const struct particle *b, d
 	return rv < 0 ? (sqrtl(d) - rv) / vv : -c / (rv + sqrtl(d));
 }
 
+/* Some of the particles that number 0 is paired with go to where their images take their places. */
+static void show_images(struct particle *particle, double box, struct pair_state pair[2][PARTICLES], uint32_t count)
+{
+	for (uint32_t k = 0; k < count; k++) {
+		if (between(0, 1) < 0.7) continue;
+		struct pair_state *both[2] = {&pair[0][k], &pair[1][count - 1 - k]};
+		for (int axis = 0; axis < 3; axis++) {
+			int image = (int)between(0, 3) - 1;
+			particle[k + 1].position[axis] -= image * box;
+			for (int p = 0; p < 2 && image; p++) both[p]->entry = entry_shifted(both[p]->entry, axis, image);
+		}
+	}
+}
+
+/* Which of so many times are not later than one, and not never. */
+static void some_are_sooner(const struct sieve_machine *machine, const float *soonest, uint32_t count)
+{
+	uint32_t kept[ROOM], all = 0;
+	float latest = between(0, 1) < 0.1 ? INFINITY : soonest[(uint32_t)between(0, count)];
+	size_t found = machine->sooner(soonest, count, latest, kept);
+	for (uint32_t k = 0; k < count; k++)
+		if (soonest[k] <= latest && soonest[k] < INFINITY) assert_true(all < found && kept[all++] == k);
+	assert_true(all == found);
+}
+
 /* Particles within a distance of number 0, up to a rounding error, or beyond one, and how long each machine says that
  * nothing happens to them. */
 static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint64_t *tight)
@@ -254,6 +279,7 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint
 		wait[k] = in < out ? in : out;
 		if (wait[k] < soonest) soonest = wait[k];
 	}
+	if (between(0, 1) < 0.5) show_images(particle, box, pair, count);
 	struct sieve sieve = sieve_at(box, now);
 	sieve.by_order = true;
 	const struct sieve_machine *machine;
@@ -267,6 +293,7 @@ static void one_hold(struct shadow *shadow, uint64_t *all, uint64_t *asked, uint
 		bound[1][0] = NAN;
 		machine->hold(&sieve, shadow, outlook, 1);
 		assert_true(isnan(bound[1][0]));
+		some_are_sooner(machine, bound[0], count);
 		*all += count;
 		for (uint32_t k = 0; k < count; k++) {
 			*asked += bound[0][k] <= soonest;
