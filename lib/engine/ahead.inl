@@ -17,7 +17,7 @@ static void particle_ahead(const struct touchstone_engine *engine, uint32_t i)
 static void next_cell(const struct itinerary *itinerary, uint16_t cell[3], int step[3])
 {
 	memcpy(cell, itinerary->cell, sizeof itinerary->cell);
-	if (itinerary->next == NEXT_IS_PHYSICAL || itinerary->next == LEAVES_ANCHOR) return;
+	if (itinerary->next == NEXT_IS_PHYSICAL || itinerary->next >= LEAVES_ANCHOR) return;
 	int axis = (itinerary->next - 1) / 2;
 	step[axis] = 2 * ((itinerary->next - 1) % 2) - 1;
 	cell[axis] = (uint16_t)(cell[axis] + step[axis]);
@@ -108,7 +108,7 @@ static void list_ahead(struct touchstone_engine *engine)
 	struct listing *listing = engine->listing;
 	if (next == LEAVES_ANCHOR) return;
 	for (int p = 0; p < 2; p++) listing[p].particle = nobody, listing[p].count = 0;
-	if (next == NEXT_IS_PHYSICAL)
+	if (next == NEXT_IS_PHYSICAL || next == LOOKS_AGAIN)
 		list_event(engine, i, &listing[0]);
 	else
 		list_crossing(engine, i, &listing[0]);

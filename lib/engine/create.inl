@@ -27,27 +27,12 @@ static void engine_destroy(struct touchstone_engine *engine)
 	pairs_destroy(&engine->pairs);
 	pairs_destroy(&engine->neighbours.pairs);
 	agenda_destroy(&engine->agenda);
-	void *owned[] = {engine->body,
-					 engine->place,
-					 engine->itinerary,
-					 engine->index_of,
-					 engine->radius,
-					 engine->mass,
-					 engine->wall,
-					 engine->lists,
-					 engine->shadows.shadow,
-					 engine->shadows.radius,
-					 engine->shadows.limits,
-					 engine->potential,
-					 engine->potential_of,
-					 engine->virtual_wall,
-					 engine->side,
-					 engine->crossed,
-					 engine->captured,
-					 engine->temperature,
-					 engine->last_met,
-					 engine->neighbours.anchor,
-					 engine->open};
+	void *owned[] = {engine->body,           engine->place,          engine->itinerary,      engine->index_of,
+					 engine->radius,         engine->mass,           engine->wall,           engine->lists,
+					 engine->shadows.shadow, engine->shadows.radius, engine->shadows.limits, engine->potential,
+					 engine->potential_of,   engine->virtual_wall,   engine->side,           engine->crossed,
+					 engine->captured,       engine->temperature,    engine->last_met,       engine->neighbours.anchor,
+					 engine->open,           engine->second};
 	for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 	free(engine);
 }
@@ -276,7 +261,7 @@ static struct touchstone_engine *engine_create(const struct touchstone_scene *sc
 	for (int axis = 0; axis < scene->dimensions; axis++) engine->periodic[axis] = scene->periodic[axis];
 	bool made = set_species_and_walls(engine, scene) && set_potentials(engine, scene) &&
 				set_virtual_walls(engine, scene) && set_particles(engine, scene) && set_heat(engine, scene) &&
-				set_sieve(engine) && set_policy(engine) && set_deferral(engine);
+				set_sieve(engine) && set_policy(engine) && set_deferral(engine) && set_second(engine);
 	if (made) read_policy(engine, scene);
 	*error = '\0';
 	made = made && (snapshot ? take_in(engine, snapshot, error) : begin(engine));

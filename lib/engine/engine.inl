@@ -76,6 +76,8 @@ extern const struct unit THIS_UNIT;
 
 #include "engine/ahead.inl"
 #include "engine/residence.inl"
+#include "engine/second.inl"
+
 #include "engine/search.inl"
 
 #include "engine/policy.inl"

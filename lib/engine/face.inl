@@ -11,7 +11,7 @@ static size_t state_memory(const struct touchstone_engine *engine)
 static size_t engine_memory(const struct touchstone_engine *engine)
 {
 	size_t each = sizeof *engine->body + sizeof *engine->place + sizeof *engine->itinerary + sizeof *engine->index_of +
-				  (engine->open ? sizeof *engine->open : 0) +
+				  (engine->open ? sizeof *engine->open : 0) + (engine->second ? sizeof *engine->second : 0) +
 				  (engine->shadows.shadow ? sizeof *engine->shadows.shadow : 0) +
 				  (engine->temperature ? sizeof *engine->temperature : 0);
 	return sizeof *engine + engine->count * each + state_memory(engine) + agenda_memory(&engine->agenda) +

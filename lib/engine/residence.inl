@@ -98,7 +98,7 @@ static double leaving(const struct touchstone_engine *engine, uint32_t i, double
 }
 
 /* Does a straight flight end in the cell where it begins? Then it does not leave it, and when it would is no matter. */
-static bool stays(const struct touchstone_engine *engine, uint32_t i, double flight)
+static inline bool stays(const struct touchstone_engine *engine, uint32_t i, double flight)
 {
 	if (engine->accelerated) return false;
 	if (engine->neighbours.skin > 0) return !leaves_anchor(engine, i, flight);

@@ -204,11 +204,11 @@ static enum touchstone_verdict engine_run(struct touchstone_engine *engine, cons
 			if (give_up(engine, limits, ++looks)) break;
 			engine->lookups++;
 			heap_drop(agenda, engine);
-			if (engine->itinerary[i].next != NEXT_IS_PHYSICAL) {
+			uint8_t next = engine->itinerary[i].next;
+			if (next != NEXT_IS_PHYSICAL && next != LOOKS_AGAIN)
 				cross(engine, i);
-			} else {
+			else if (next == LOOKS_AGAIN || !postpone(engine, i))
 				look_again(engine, i);
-			}
 		} else if (open_of(engine, i) > 0) {
 			heap_drop(agenda, engine);
 			settle_now(engine, i);

@@ -54,12 +54,13 @@ static inline void consider_moment(struct touchstone_engine *engine, uint32_t i,
 	static const double too_far = 0x1p52; /* pages: further than any run goes */
 	if (moment.page > too_far * engine->page_length || !is_finite(moment.time)) return;
 	if (plan->meets != MEETS_NOTHING) {
-		if (moment_before(plan->moment, moment)) return;
-		if (!moment_before(moment, plan->moment) &&
-			rank_of(engine, i, plan->partner, plan->meets) <= rank_of(engine, i, partner, meets))
-			return;
+		bool later = moment_before(plan->moment, moment);
+		if (!later && !moment_before(moment, plan->moment))
+			later = rank_of(engine, i, plan->partner, plan->meets) <= rank_of(engine, i, partner, meets);
+		not_before(engine, later ? moment : plan->moment, plan);
+		if (later) return;
 	}
-	*plan = (struct plan){moment, partner, meets, true, 0};
+	*plan = (struct plan){moment, partner, meets, true, 0, plan->second};
 }
 
 static num early_meeting(const struct touchstone_engine *engine, struct balls *balls, struct quadratic *f);
@@ -126,6 +127,7 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
 	engine->itinerary[i].meets = plan->meets;
+	if (!may_take_long && engine->second) engine->second[i] = plan->second;
 	if (!plan->fresh) return;
 	if (!(plan->open > 0)) forget_open(engine, i);
 	itinerary->time = plan->moment.time;
@@ -171,7 +173,7 @@ static void predict_all(struct touchstone_engine *engine, const uint32_t *partic
 	if (captures && engine->neighbours.skin == 0)
 		for (int p = 0; p < particles; p++) pairs_ahead(&engine->pairs, particle[p]);
 	for (int p = 0; p < particles; p++) {
-		plan[p] = (struct plan){.meets = MEETS_NOTHING};
+		plan[p] = (struct plan){.meets = MEETS_NOTHING, .second = INFINITY};
 		forget_open(engine, particle[p]);
 	}
 	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
@@ -227,8 +229,12 @@ static void settle_now(struct touchstone_engine *engine, uint32_t i)
 static void predict_entered(struct touchstone_engine *engine, uint32_t i, const int step[3])
 {
 	const struct itinerary *itinerary = &engine->itinerary[i];
-	struct plan plan = {
-		{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false, open_of(engine, i)};
+	struct plan plan = {{itinerary->page, itinerary->time},
+						itinerary->partner,
+						itinerary->meets,
+						false,
+						open_of(engine, i),
+						second_of(engine, i)};
 	uint32_t *list = engine->candidate[0];
 	size_t candidates = cells_entered(&engine->cells, engine->itinerary[i].cell, step, i, list);
 	sift(engine, &i, 1, &candidates, &plan);
@@ -243,7 +249,8 @@ static void predict_entered(struct touchstone_engine *engine, uint32_t i, const 
 static void predict_fresh(struct touchstone_engine *engine, uint32_t i, size_t fresh)
 {
 	const struct itinerary *itinerary = &engine->itinerary[i];
-	struct plan plan = {{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false, 0};
+	struct plan plan = {
+		{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false, 0, second_of(engine, i)};
 	uint32_t count;
 	const struct pair_state *listed = pairs_of(&engine->neighbours.pairs, i, &count);
 	consider_listed(engine, i, listed + count - fresh, (uint32_t)fresh, &plan);
@@ -275,13 +282,19 @@ static bool entry_first(const void *context, const struct entry *a, const struct
 		   rank_of(context, b->note.particle, b->partner, (uint8_t)(b->kind - 1));
 }
 
-/* Puts the next thing that happens to a particle on the agenda. What was there for it no longer holds. */
+/* Puts what comes next for a particle on the agenda, in a page. What was there for it no longer holds. */
+static inline void enter_note(struct touchstone_engine *engine, uint32_t i, double page)
+{
+	uint32_t stamp = ++engine->itinerary[i].stamp;
+	agenda_push(&engine->agenda, engine, page, entry_of(engine, (struct note){i, stamp}));
+}
+
+/* Finds out what that is, and puts it there. What was there for it no longer holds. */
 static void schedule(struct touchstone_engine *engine, uint32_t i)
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
 	double page = itinerary->page, time = double_below(itinerary->time);
 	bool meets = itinerary->meets != MEETS_NOTHING;
-	itinerary->stamp++;
 	itinerary->next = NEXT_IS_PHYSICAL;
 	if (!meets || !stays(engine, i, (page - engine->body[i].page) + (time - to_double(engine->body[i].time)))) {
 		double leaves_page = 0;
@@ -292,8 +305,9 @@ static void schedule(struct touchstone_engine *engine, uint32_t i)
 			itinerary->next = face;
 			page = leaves_page;
 		} else if (!meets) {
+			engine->itinerary[i].stamp++;
 			return;
 		}
 	}
-	agenda_push(&engine->agenda, engine, page, entry_of(engine, (struct note){i, itinerary->stamp}));
+	enter_note(engine, i, page);
 }

@@ -121,6 +121,14 @@ static void cast_shadows(struct touchstone_engine *engine)
 	keep_time(engine);
 }
 
+/* What the working arithmetic has after a bound of the sieve's is surely not before this: both in the sieve's time,
+ * from now. */
+static double bound_surely(const struct touchstone_engine *engine, double bound)
+{
+	double least = bound - 0x1p-20 - (double)engine->shadows.sieve.late;
+	return least / (least > 0 ? 1.0001 : 1);
+}
+
 /* What comes after the plan is of no interest: in the sieve's time, from now. */
 static float latest_planned(const struct touchstone_engine *engine, const struct plan *plan)
 {
@@ -184,6 +192,7 @@ static void foresee(struct touchstone_engine *engine, const uint32_t *particle, 
 }
 
 static bool defer(struct touchstone_engine *engine, uint32_t i, const struct sieve_search *left, struct plan *plan);
+static inline void not_before_bound(const struct touchstone_engine *engine, float bound, struct plan *plan);
 
 /* Of the entries listed for one or two particles, keeps those that they may meet before their plans, unless there is
  * one that can be planned for as it is. */
@@ -205,6 +214,7 @@ static void sift(struct touchstone_engine *engine, const uint32_t *particle, int
 	shadows->machine->pass(&shadows->sieve, shadows->shadow, search, particles);
 	for (int p = 0; p < particles; p++) {
 		candidates[p] = search[p].count;
+		not_before_bound(engine, search[p].later, &plan[p]);
 		if (shadows->sieve.timed && defer(engine, particle[p], &search[p], &plan[p])) candidates[p] = 0;
 		/* Mostly one, and seldom more than two. A loop over so many as there are would have to be guessed. */
 		for (int k = 0; k < 2; k++) {

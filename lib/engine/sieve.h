@@ -59,7 +59,8 @@ struct sieve {
 	float heard;    /* pairs no farther apart than so many times their contact distance pass in any case; 0: none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
 	bool images;    /* whether any entry of a search, or of those looked over, may be an image */
-	bool timed;     /* whether searches are told when the last that they keep meets */
+	bool timed;     /* whether searches are told when the last that they keep meets, */
+	bool later;     /* and before when those do not that they leave out for another */
 };
 
 /* One search: of the entries (engine/cells.h) that a particle may meet, those that it may meet first. */
@@ -69,6 +70,7 @@ struct sieve_search {
 	size_t count;
 	float latest;   /* meetings surely later are of no interest; INFINITY for none */
 	float from, by; /* when the last one kept meets, if it does: by INFINITY where it is not sure to */
+	float later;    /* those left out for another meet no sooner; INFINITY: none was, or nobody asked */
 };
 
 /* Goes through one or two searches of one time, and leaves in each the entries that may be met first, and their count.
@@ -116,8 +118,8 @@ typedef void sieve_hold(const struct sieve *sieve, const struct shadow *shadow, 
 						int outlooks);
 
 /* Of so many times that it has written: writes the numbers of those not later than `latest`, nor INFINITY, in their order,
- * to `kept`, which has room for 16 more, and returns how many there are. */
-typedef size_t sieve_sooner(const float *soonest, size_t count, float latest, uint32_t *kept);
+ * to `kept`, which has room for 16 more, and returns how many there are. `later` is the least of the others. */
+typedef size_t sieve_sooner(const float *soonest, size_t count, float latest, uint32_t *kept, float *later);
 
 /* Writes a shadow whole: what is written in pieces is slow to be read back whole. */
 typedef void sieve_cast(struct shadow *shadow, double x, double y, double z, double time, double vx, double vy,

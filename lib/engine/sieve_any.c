@@ -53,6 +53,11 @@ INLINE lanes larger(lanes a, lanes b)
 	return pick(b < a, a, b);
 }
 
+INLINE lanes smaller(lanes a, lanes b)
+{
+	return pick(a < b, a, b);
+}
+
 INLINE float minimum(lanes x)
 {
 	float first = x[1] < x[0] ? x[1] : x[0], second = x[3] < x[2] ? x[3] : x[2];

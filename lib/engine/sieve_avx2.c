@@ -45,6 +45,11 @@ INLINE lanes larger(lanes a, lanes b)
 	return (lanes)_mm256_max_ps((__m256)a, (__m256)b);
 }
 
+INLINE lanes smaller(lanes a, lanes b)
+{
+	return (lanes)_mm256_min_ps((__m256)a, (__m256)b);
+}
+
 INLINE float minimum(lanes x)
 {
 	__m128 four = _mm_min_ps(_mm256_castps256_ps128((__m256)x), _mm256_extractf128_ps((__m256)x, 1));

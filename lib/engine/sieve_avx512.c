@@ -55,6 +55,11 @@ INLINE lanes larger(lanes a, lanes b)
 	return (lanes)_mm512_max_ps((__m512)a, (__m512)b);
 }
 
+INLINE lanes smaller(lanes a, lanes b)
+{
+	return (lanes)_mm512_min_ps((__m512)a, (__m512)b);
+}
+
 INLINE float minimum(lanes x)
 {
 	return _mm512_reduce_min_ps((__m512)x);

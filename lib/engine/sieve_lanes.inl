@@ -11,7 +11,8 @@
  *	any            whether any word is not 0
  *	behind         which lanes are behind the last of `count`
  *	bits           a mask as a bit for each lane
- *	larger         of each two, or the second where the first is no number
+ *	larger         of each two, or the second where the first is no number,
+ *	smaller        and so is this
  *	minimum        of all
  *	pack           what is wanted, close together: from a place to the same or an earlier one; how many
  *	limits_of      the entries of pairs, 0 behind the last of them, and their limits

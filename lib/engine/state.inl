@@ -25,14 +25,14 @@ static inline bool with_particle(uint8_t meets)
 }
 
 /* What is next for a particle, otherwise 1 + 2 axis + (side > 0): a cell is left that way. LEAVES_ANCHOR: from its
- * anchor. */
-enum { NEXT_IS_PHYSICAL = 0, LEAVES_ANCHOR = 7 };
+ * anchor. LOOKS_AGAIN: since its plan has come to nothing. */
+enum { NEXT_IS_PHYSICAL = 0, LEAVES_ANCHOR = 7, LOOKS_AGAIN };
 
 /* Where a particle is and what comes next for it, as far as it knows: one cache line in binary64. */
 struct itinerary {
 	_Alignas(64) num time; /* of its next physical event */
 	double page;
-	double leaves;            /* its cell, if that comes first: since the page began */
+	double leaves;            /* its cell, or looks again, if that comes first: since the page began */
 	double entered;           /* its cell: since its last event */
 	uint32_t partner;         /* entry of the other particle, or number of the wall */
 	uint32_t partner_changes; /* of the other, when this was found: if it has had more, this is no longer true */
@@ -57,6 +57,7 @@ struct plan {
 	uint8_t meets; /* enum touchstone_kind, or MEETS_NOTHING */
 	bool fresh;    /* found in this search */
 	float open;    /* by how much later it may be: where it is deferred (engine/defer.inl) */
+	double second; /* before which nothing else happens (engine/second.inl) */
 };
 
 struct touchstone_engine;
@@ -142,7 +143,8 @@ struct touchstone_engine {
 	uint32_t count;
 	struct body *body;
 	struct place *place;
-	float *open; /* per particle, or NULL: by how much its meeting may be later (engine/defer.inl) */
+	float *open;    /* per particle, or NULL: by how much its meeting may be later (engine/defer.inl) */
+	double *second; /* per particle, or NULL: moment before which only its plan may happen (engine/second.inl) */
 	struct itinerary *itinerary;
 	uint32_t *index_of; /* of a particle's number in the scene */
 

@@ -44,12 +44,18 @@ static void consider_forecast(struct touchstone_engine *engine, uint32_t i, cons
 		consider_foreseen(engine, i, forecast, first, plan);
 		latest = latest_planned(engine, plan);
 	}
-	size_t some = engine->shadows.machine->sooner(forecast->soonest, forecast->count, latest, early);
+	float later;
+	size_t some = engine->shadows.machine->sooner(forecast->soonest, forecast->count, latest, early, &later);
 	for (size_t k = 0; k < some; k++) {
-		if (early[k] == first || forecast->soonest[early[k]] > latest) continue;
+		if (early[k] == first) continue;
+		if (forecast->soonest[early[k]] > latest) {
+			later = fminf(later, forecast->soonest[early[k]]);
+			continue;
+		}
 		consider_foreseen(engine, i, forecast, early[k], plan);
 		latest = latest_planned(engine, plan);
 	}
+	not_before_bound(engine, later, plan);
 }
 
 /* The same with what stands in a store, `more` than its state, for one or two particles: step by step together. */
