@@ -7,13 +7,15 @@
 
 static const uint32_t no_block = UINT32_MAX;
 
+enum { AT_ONCE = 8 }; /* slots that are read: so many stand behind the last */
+
 bool pairs_create(struct pairs *pairs, uint32_t particles)
 {
 	*pairs = (struct pairs){.particles = particles};
 	for (int size = 0; size < PAIR_SIZES; size++) pairs->spare[size] = no_block;
 	pairs->bucket = calloc(particles, sizeof *pairs->bucket);
 	pairs->room = 64;
-	pairs->slot = malloc(pairs->room * sizeof *pairs->slot);
+	pairs->slot = calloc(pairs->room + AT_ONCE, sizeof *pairs->slot);
 	return pairs->bucket && pairs->slot;
 }
 
@@ -41,7 +43,7 @@ static uint32_t take_block(struct pairs *pairs, int size)
 	if (needed >= no_block) return no_block;
 	if (needed > pairs->room) {
 		size_t room = needed + needed / 4 + 64;
-		struct pair_state *slot = realloc(pairs->slot, room * sizeof *slot);
+		struct pair_state *slot = realloc(pairs->slot, (room + AT_ONCE) * sizeof *slot);
 		if (!slot) return no_block;
 		pairs->slot = slot, pairs->room = room;
 	}
@@ -66,21 +68,25 @@ static bool resize(struct pairs *pairs, struct pair_bucket *bucket, int size)
 	return true;
 }
 
+/* Where particle i has an entry; NULL where it is not stored. Eight at a time, a bit for each: in a loop that ends at
+ * the slot that is looked for a processor would have to guess which. */
 static struct pair_state *find(const struct pairs *pairs, uint32_t i, uint32_t entry)
 {
 	typedef uint32_t two_slots __attribute__((vector_size(2 * sizeof(struct pair_state))));
-	enum { AT_ONCE = 8 };
 	const two_slots wanted = {entry, 0, entry, 0}; /* no state is 0 */
-	struct pair_state *slot = pairs->slot + pairs->bucket[i].first, *end = slot + pairs->bucket[i].used;
-	for (; end - slot >= AT_ONCE; slot += AT_ONCE) {
-		two_slots two[AT_ONCE / 2];
-		memcpy(two, slot, sizeof two);
-		__typeof__(two[0] == wanted) same =
-			(two[0] == wanted) | (two[1] == wanted) | (two[2] == wanted) | (two[3] == wanted);
-		if (same[0] | same[2]) break;
+	const struct pair_bucket *bucket = &pairs->bucket[i];
+	struct pair_state *slot = pairs->slot + bucket->first;
+	for (uint32_t at = 0; at < bucket->used; at += AT_ONCE) {
+		two_slots bits = {0};
+		for (uint32_t k = 0; k < AT_ONCE; k += 2) {
+			two_slots two;
+			memcpy(&two, slot + at + k, sizeof two);
+			bits |= (two_slots)(two == wanted) & (two_slots){UINT32_C(1) << k, 0, UINT32_C(2) << k, 0};
+		}
+		uint32_t found = bits[0] | bits[2];
+		if (bucket->used - at < AT_ONCE) found &= (UINT32_C(1) << (bucket->used - at)) - 1;
+		if (found) return slot + at + __builtin_ctz(found);
 	}
-	for (; slot < end; slot++)
-		if (slot->entry == entry) return slot;
 	return NULL;
 }
 
