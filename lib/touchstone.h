@@ -213,7 +213,7 @@ struct touchstone_status {
 	double potential_energy;              /* of all of them */
 	double kicked_energy;                 /* what the kicks of convection brought in so far */
 	double thermostat_energy;             /* what thermal walls brought in */
-	uint64_t lookups;                     /* bookkeeping: cells crossed and searches repeated */
+	uint64_t lookups;                     /* bookkeeping: cells crossed, and searches repeated or put off */
 	double time;                          /* of the last event (or the limit that was reached) */
 	uint64_t digest;                      /* of kind, particles and exact time of every physical event so far */
 	size_t memory;                        /* bytes the engine holds */

@@ -40,7 +40,11 @@ static bool defer(struct touchstone_engine *engine, uint32_t i, const struct sie
 	double from = fmax(0, (double)(left->from - shadows->sieve.late)), by = (double)(left->by + shadows->sieve.late);
 	double time = (shadows->base_time + (shadows->now + from) / shadows->per_time) * less;
 	engine->open[i] = (float)(1.001 * (by - from) / shadows->per_time) + 0x1p-100f;
-	*plan = (struct plan){moment_on(engine, shadows->base_page, from_double(fmax(0, time))), left->entry[0],
-						  TOUCHSTONE_CONTACT, true, engine->open[i], plan->second};
+	*plan = (struct plan){moment_on(engine, shadows->base_page, from_double(fmax(0, time))),
+						  left->entry[0],
+						  TOUCHSTONE_CONTACT,
+						  true,
+						  engine->open[i],
+						  plan->second};
 	return true;
 }

@@ -117,8 +117,8 @@ struct sieve_outlook {
 typedef void sieve_hold(const struct sieve *sieve, const struct shadow *shadow, struct sieve_outlook *outlook,
 						int outlooks);
 
-/* Of so many times that it has written: writes the numbers of those not later than `latest`, nor INFINITY, in their order,
- * to `kept`, which has room for 16 more, and returns how many there are. `later` is the least of the others. */
+/* Of so many times that it has written: writes the numbers of those not later than `latest`, nor INFINITY, in their
+ * order, to `kept`, which has room for 16 more, and returns how many there are. `later` is the least of the others. */
 typedef size_t sieve_sooner(const float *soonest, size_t count, float latest, uint32_t *kept, float *later);
 
 /* Writes a shadow whole: what is written in pieces is slow to be read back whole. */

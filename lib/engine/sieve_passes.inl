@@ -197,10 +197,14 @@ INLINE void pass_of(const struct sieve *sieve, const struct shadow *shadow, stru
 MACHINE static void pass(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
 						 int searches)
 {
-	if (sieve->later)
-		searches == 1 ? pass_of(sieve, shadow, search, 1, true) : pass_of(sieve, shadow, search, 2, true);
+	if (sieve->later && searches == 1)
+		pass_of(sieve, shadow, search, 1, true);
+	else if (sieve->later)
+		pass_of(sieve, shadow, search, 2, true);
+	else if (searches == 1)
+		pass_of(sieve, shadow, search, 1, false);
 	else
-		searches == 1 ? pass_of(sieve, shadow, search, 1, false) : pass_of(sieve, shadow, search, 2, false);
+		pass_of(sieve, shadow, search, 2, false);
 }
 
 /* No event of a pair comes before: that of meeting where it surely meets, that of parting where it surely does not, and
