@@ -127,7 +127,7 @@ static void plan_keep(struct touchstone_engine *engine, uint32_t i, const struct
 {
 	struct itinerary *itinerary = &engine->itinerary[i];
 	engine->itinerary[i].meets = plan->meets;
-	if (!may_take_long && engine->second) engine->second[i] = plan->second;
+	if (keeps_second(engine)) engine->second[i] = plan->second;
 	if (!plan->fresh) return;
 	if (!(plan->open > 0)) forget_open(engine, i);
 	itinerary->time = plan->moment.time;

@@ -192,7 +192,6 @@ static void foresee(struct touchstone_engine *engine, const uint32_t *particle, 
 }
 
 static bool defer(struct touchstone_engine *engine, uint32_t i, const struct sieve_search *left, struct plan *plan);
-static inline void not_before_bound(const struct touchstone_engine *engine, float bound, struct plan *plan);
 
 /* Of the entries listed for one or two particles, keeps those that they may meet before their plans, unless there is
  * one that can be planned for as it is. */
@@ -214,7 +213,6 @@ static void sift(struct touchstone_engine *engine, const uint32_t *particle, int
 	shadows->machine->pass(&shadows->sieve, shadows->shadow, search, particles);
 	for (int p = 0; p < particles; p++) {
 		candidates[p] = search[p].count;
-		not_before_bound(engine, search[p].later, &plan[p]);
 		if (shadows->sieve.timed && defer(engine, particle[p], &search[p], &plan[p])) candidates[p] = 0;
 		/* Mostly one, and seldom more than two. A loop over so many as there are would have to be guessed. */
 		for (int k = 0; k < 2; k++) {

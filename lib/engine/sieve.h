@@ -59,8 +59,7 @@ struct sieve {
 	float heard;    /* pairs no farther apart than so many times their contact distance pass in any case; 0: none */
 	bool by_order;  /* whether pairs may be left out for another that meets earlier */
 	bool images;    /* whether any entry of a search, or of those looked over, may be an image */
-	bool timed;     /* whether searches are told when the last that they keep meets, */
-	bool later;     /* and before when those do not that they leave out for another */
+	bool timed;     /* whether searches are told when the last that they keep meets */
 };
 
 /* One search: of the entries (engine/cells.h) that a particle may meet, those that it may meet first. */
@@ -70,7 +69,6 @@ struct sieve_search {
 	size_t count;
 	float latest;   /* meetings surely later are of no interest; INFINITY for none */
 	float from, by; /* when the last one kept meets, if it does: by INFINITY where it is not sure to */
-	float later;    /* those left out for another meet no sooner; INFINITY: none was, or nobody asked */
 };
 
 /* Goes through one or two searches of one time, and leaves in each the entries that may be met first, and their count.

@@ -122,7 +122,6 @@ INLINE mask unheard(const struct sieve *sieve, const struct others *o, lanes squ
 struct progress {
 	struct own own;
 	float latest;
-	lanes later; /* when those meet that were left out for another */
 	size_t kept;
 };
 
@@ -141,7 +140,7 @@ INLINE void tell_time(struct sieve_search *search, const struct meeting *meeting
 /* The next lanes of one search, or of two: step by step together, since each step waits for the one before it and not
  * for those of the other. */
 INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
-					  struct progress *progress, int searches, bool later, size_t at)
+					  struct progress *progress, int searches, size_t at)
 {
 	const lanes never = all(INFINITY);
 	struct others others[2];
@@ -166,7 +165,6 @@ INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, st
 			latest_of(sieve, progress[k].latest, pick(meeting[k].sure & ~out[k], meeting[k].high, never));
 		mask late = less(all(progress[k].latest), meeting[k].low);
 		if (sieve->heard > 0) late &= unheard(sieve, &others[k], square[k]);
-		if (later) progress[k].later = smaller(progress[k].later, pick(late & ~out[k], meeting[k].low, never));
 		out[k] |= late;
 	}
 	for (int k = 0; k < searches && sieve->timed; k++) tell_time(&search[k], &meeting[k], bits(~out[k]) & all_lanes);
@@ -174,37 +172,29 @@ INLINE void sift_next(const struct sieve *sieve, const struct shadow *shadow, st
 		progress[k].kept += pack(bits(~out[k]) & all_lanes, search[k].entry + at, search[k].entry + progress[k].kept);
 }
 
-/* Each combination of the two last has code of its own. */
-INLINE void pass_of(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search, int searches,
-					bool later)
+INLINE void pass_of(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search, int searches)
 {
 	struct progress progress[2];
 	size_t at = 0;
 	for (int k = 0; k < searches; k++)
 		progress[k] = (struct progress){.own = own_of(sieve, &shadow[search[k].self]), .latest = search[k].latest};
-	for (int k = 0; k < searches && later; k++) progress[k].later = all(INFINITY);
 	if (searches == 2)
 		for (; at < search[0].count && at < search[1].count; at += LANES)
-			sift_next(sieve, shadow, search, progress, 2, later, at);
+			sift_next(sieve, shadow, search, progress, 2, at);
 	for (int k = 0; k < searches; k++) {
 		for (size_t rest = at; rest < search[k].count; rest += LANES)
-			sift_next(sieve, shadow, &search[k], &progress[k], 1, later, rest);
+			sift_next(sieve, shadow, &search[k], &progress[k], 1, rest);
 		search[k].count = progress[k].kept;
-		search[k].later = later ? minimum(progress[k].later) : INFINITY;
 	}
 }
 
 MACHINE static void pass(const struct sieve *sieve, const struct shadow *shadow, struct sieve_search *search,
 						 int searches)
 {
-	if (sieve->later && searches == 1)
-		pass_of(sieve, shadow, search, 1, true);
-	else if (sieve->later)
-		pass_of(sieve, shadow, search, 2, true);
-	else if (searches == 1)
-		pass_of(sieve, shadow, search, 1, false);
+	if (searches == 1)
+		pass_of(sieve, shadow, search, 1);
 	else
-		pass_of(sieve, shadow, search, 2, false);
+		pass_of(sieve, shadow, search, 2);
 }
 
 /* No event of a pair comes before: that of meeting where it surely meets, that of parting where it surely does not, and
