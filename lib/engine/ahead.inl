@@ -106,9 +106,9 @@ static void list_ahead(struct touchstone_engine *engine)
 	uint32_t i = agenda->heap[0].note.particle, partner = next_partner(engine, i);
 	uint8_t next = engine->itinerary[i].next;
 	struct listing *listing = engine->listing;
-	if (next == LEAVES_ANCHOR) return;
+	if (next >= LEAVES_ANCHOR) return;
 	for (int p = 0; p < 2; p++) listing[p].particle = nobody, listing[p].count = 0;
-	if (next == NEXT_IS_PHYSICAL || next == LOOKS_AGAIN)
+	if (next == NEXT_IS_PHYSICAL)
 		list_event(engine, i, &listing[0]);
 	else
 		list_crossing(engine, i, &listing[0]);

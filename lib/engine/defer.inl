@@ -45,6 +45,6 @@ static bool defer(struct touchstone_engine *engine, uint32_t i, const struct sie
 						  TOUCHSTONE_CONTACT,
 						  true,
 						  engine->open[i],
-						  plan->second};
+						  0};
 	return true;
 }

@@ -15,7 +15,7 @@ bool pairs_create(struct pairs *pairs, uint32_t particles)
 	for (int size = 0; size < PAIR_SIZES; size++) pairs->spare[size] = no_block;
 	pairs->bucket = calloc(particles, sizeof *pairs->bucket);
 	pairs->room = 64;
-	pairs->slot = calloc(pairs->room + AT_ONCE, sizeof *pairs->slot);
+	pairs->slot = malloc((pairs->room + AT_ONCE) * sizeof *pairs->slot);
 	return pairs->bucket && pairs->slot;
 }
 

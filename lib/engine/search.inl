@@ -229,12 +229,8 @@ static void settle_now(struct touchstone_engine *engine, uint32_t i)
 static void predict_entered(struct touchstone_engine *engine, uint32_t i, const int step[3])
 {
 	const struct itinerary *itinerary = &engine->itinerary[i];
-	struct plan plan = {{itinerary->page, itinerary->time},
-						itinerary->partner,
-						itinerary->meets,
-						false,
-						open_of(engine, i),
-						second_of(engine, i)};
+	struct plan plan = {
+		{itinerary->page, itinerary->time}, itinerary->partner, itinerary->meets, false, open_of(engine, i), 0};
 	uint32_t *list = engine->candidate[0];
 	size_t candidates = cells_entered(&engine->cells, engine->itinerary[i].cell, step, i, list);
 	sift(engine, &i, 1, &candidates, &plan);
