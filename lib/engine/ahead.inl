@@ -11,6 +11,9 @@ static void particle_ahead(const struct touchstone_engine *engine, uint32_t i)
 	ahead(&engine->body[i]);
 	ahead(&engine->place[i]);
 	if (engine->shadows.shadow) ahead(&engine->shadows.shadow[i]);
+	if (engine->neighbours.skin == 0) return;
+	ahead(&engine->neighbours.pairs.bucket[i]);
+	ahead(&engine->pairs.bucket[i]);
 }
 
 /* The cell where a particle will be looked for when what comes next for it has come, and the step to there. */
@@ -31,14 +34,18 @@ static uint32_t next_partner(const struct touchstone_engine *engine, uint32_t i)
 	return meets ? entry_particle(itinerary->partner) : i;
 }
 
-/* Today: its partner's itinerary is there by now. */
+/* Today: its itinerary is there by now, and where days are many its partner's. */
 static void note_at_hand(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	if (engine->agenda.wide)
-		cells_ahead(&engine->cells, engine->itinerary[next_partner(engine, note.particle)].cell);
-	else
-		particle_ahead(engine, note.particle);
+	uint32_t partner = next_partner(engine, note.particle);
+	if (engine->agenda.wide) {
+		cells_ahead(&engine->cells, engine->itinerary[partner].cell);
+		return;
+	}
+	particle_ahead(engine, note.particle);
+	ahead(&engine->itinerary[partner]);
+	particle_ahead(engine, partner);
 }
 
 /* Tomorrow. */
@@ -115,4 +122,23 @@ static void list_ahead(struct touchstone_engine *engine)
 	if (partner != i) list_event(engine, partner, &listing[1]);
 	for (int p = 0; p < 2; p++)
 		for (size_t k = 0; k < listing[p].count; k++) ahead(&shadow[entry_particle(listing[p].entry[k])]);
+}
+
+/* The same where there are neighbour lists: fetches those of that event. */
+static void neighbours_ahead(const struct touchstone_engine *engine)
+{
+	const struct agenda *agenda = &engine->agenda;
+	if (!agenda->size) return;
+	uint32_t i = agenda->heap[0].note.particle, partner = next_partner(engine, i);
+	pairs_ahead(&engine->neighbours.pairs, i);
+	if (partner != i) pairs_ahead(&engine->neighbours.pairs, partner);
+}
+
+/* And of a particle whose list is there, what stands in it. */
+static void listed_ahead(const struct touchstone_engine *engine, uint32_t i)
+{
+	uint32_t count;
+	const struct pair_state *listed = pairs_of(&engine->neighbours.pairs, i, &count);
+	for (uint32_t k = 0; k < count; k++) ahead(&engine->shadows.shadow[entry_particle(listed[k].entry)]);
+	pairs_ahead(&engine->pairs, i);
 }

@@ -101,11 +101,7 @@ static void execute(struct touchstone_engine *engine, uint32_t i)
 	int particles = with_particle(meets) ? 2 : 1;
 	unsigned policy = engine->method->policy;
 	engine->now = (struct moment){engine->itinerary[i].page, engine->itinerary[i].time};
-	if (engine->neighbours.skin > 0)
-		for (int p = 0; p < particles; p++) {
-			pairs_ahead(&engine->neighbours.pairs, met[p]);
-			pairs_ahead(&engine->pairs, met[p]);
-		}
+	for (int p = 0; engine->neighbours.skin > 0 && p < particles; p++) listed_ahead(engine, met[p]);
 	if (policy & POLICY_SEARCH) search_back(engine, i, meets, partner);
 	keep_time(engine);
 	if (meets == TOUCHSTONE_CONTACT)

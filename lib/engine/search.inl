@@ -160,6 +160,7 @@ static void predict_listed(struct touchstone_engine *engine, const uint32_t *par
 		for (int p = 0; p < particles; p++) candidates[p] = list_around(engine, particle[p], p);
 		tell_tests(engine, particle, engine->candidate, candidates, particles);
 	}
+	neighbours_ahead(engine);
 	consider_stored(engine, &engine->neighbours.pairs, 1, particle, particles, plan);
 }
 
