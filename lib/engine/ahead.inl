@@ -11,9 +11,8 @@ static void particle_ahead(const struct touchstone_engine *engine, uint32_t i)
 	ahead(&engine->body[i]);
 	ahead(&engine->place[i]);
 	if (engine->shadows.shadow) ahead(&engine->shadows.shadow[i]);
-	if (engine->neighbours.skin == 0) return;
-	ahead(&engine->neighbours.pairs.bucket[i]);
-	ahead(&engine->pairs.bucket[i]);
+	if (engine->pairs.bucket) ahead(&engine->pairs.bucket[i]);
+	if (engine->neighbours.skin > 0) ahead(&engine->neighbours.pairs.bucket[i]);
 }
 
 /* The cell where a particle will be looked for when what comes next for it has come, and the step to there. */

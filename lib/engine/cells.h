@@ -55,7 +55,7 @@ struct cells {
 	bool periodic[3];
 	int count[3];      /* without ghosts; coordinates of real cells run from 1 to count */
 	size_t stride[3];  /* in entries */
-	uint32_t capacity; /* entries per cell: four, or that doubled so many times */
+	uint32_t capacity; /* entries per cell: 4, 8, 12 or 16, or that doubled so many times */
 	bool gapless;      /* whether the entries of a cell stand without gaps: where cells are large and mostly empty */
 	uint32_t *entry;   /* all cells, x fastest */
 	size_t entries;

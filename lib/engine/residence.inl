@@ -137,10 +137,17 @@ static bool fill_cells(struct touchstone_engine *engine)
 	return true;
 }
 
-/* Makes cells of the wanted capacity, doubling it until all particles find room; false when memory does not suffice. */
+/* The next larger capacity of a cell: small steps first, since what a search reads grows with it. */
+static uint32_t larger_capacity(uint32_t capacity)
+{
+	return capacity < 16 ? capacity + 4 : 2 * capacity;
+}
+
+/* Makes cells of the wanted capacity, or of the least larger one in which all particles find room; false when memory
+ * does not suffice. */
 static bool make_cells(struct touchstone_engine *engine, const int count[3], uint32_t capacity)
 {
-	for (;; capacity *= 2) {
+	for (;; capacity = larger_capacity(capacity)) {
 		cells_destroy(&engine->cells);
 		free(engine->lists);
 		engine->lists = NULL;
@@ -161,7 +168,7 @@ static bool enter_cell(struct touchstone_engine *engine, uint32_t i)
 {
 	if (cells_insert(&engine->cells, engine->itinerary[i].cell, i)) return true;
 	int count[3] = {engine->cells.count[0], engine->cells.count[1], engine->cells.count[2]};
-	return make_cells(engine, count, 2 * engine->cells.capacity);
+	return make_cells(engine, count, larger_capacity(engine->cells.capacity));
 }
 
 /* Takes a particle out of its cell and into one next to it. Returns whether that is in another image of the box. */

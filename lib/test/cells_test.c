@@ -23,7 +23,9 @@ static void fill(struct cells *cells, struct random_state *random)
 		count[axis] = 1 + (int)random_below(random, 6);
 		periodic[axis] = random_below(random, 2);
 	}
-	uint32_t capacity = 4u << random_below(random, 5), room = (uint32_t)(count[0] * count[1] * count[2]) * capacity;
+	static const uint32_t capacities[] = {4, 8, 12, 16, 32, 64};
+	uint32_t capacity = capacities[random_below(random, 6)],
+			 room = (uint32_t)(count[0] * count[1] * count[2]) * capacity;
 	assert_true(cells_create(cells, dimensions, periodic, count, capacity));
 	for (uint32_t p = 0; p < room / 2; p++) {
 		uint16_t cell[3] = {0, 0, 0};
