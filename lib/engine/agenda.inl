@@ -135,7 +135,9 @@ static size_t place_of(const struct agenda *agenda, double day)
 	return (size_t)(int64_t)day & (agenda->days - 1);
 }
 
-static void pile_put(struct agenda *agenda, double day, struct note note)
+/* A note is given in its two parts, since one put together from them would be read, for the call, before they are
+ * written, which takes a hundredth of a gas's time. */
+static void pile_put(struct agenda *agenda, double day, uint32_t particle, uint32_t stamp)
 {
 	size_t place = place_of(agenda, day);
 	struct pile *pile = &agenda->pile[place];
@@ -147,7 +149,7 @@ static void pile_put(struct agenda *agenda, double day, struct note note)
 		}
 		*used = 0;
 	}
-	pile->note[(*used)++] = note;
+	pile->note[(*used)++] = (struct note){particle, stamp};
 	agenda->piled++;
 }
 
@@ -156,7 +158,7 @@ static void waiting_put(struct agenda *agenda)
 {
 	const struct distant *oldest = &agenda->waiting[agenda->oldest++ % WAITING];
 	agenda->waits--;
-	pile_put(agenda, oldest->day, oldest->note);
+	pile_put(agenda, oldest->day, oldest->note.particle, oldest->note.stamp);
 }
 
 static void waiting_put_all(struct agenda *agenda)
@@ -168,7 +170,7 @@ static void waiting_put_all(struct agenda *agenda)
 static void pile_add(struct agenda *agenda, double day, struct note note)
 {
 	if (!agenda->wide) {
-		pile_put(agenda, day, note);
+		pile_put(agenda, day, note.particle, note.stamp);
 		return;
 	}
 	ahead_to_change(&agenda->pile[place_of(agenda, day)]);

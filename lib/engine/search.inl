@@ -168,15 +168,13 @@ static void predict_listed(struct touchstone_engine *engine, const uint32_t *par
  * together: each step waits for the one before it, and not for the other particle's. */
 static void predict_all(struct touchstone_engine *engine, const uint32_t *particle, int particles)
 {
-	struct plan plan[2];
+	const struct plan nothing = {.meets = MEETS_NOTHING, .second = INFINITY};
+	struct plan plan[2] = {nothing, nothing};
 	size_t candidates[2] = {0};
 	bool captures = engine->captured;
 	if (captures && engine->neighbours.skin == 0)
 		for (int p = 0; p < particles; p++) pairs_ahead(&engine->pairs, particle[p]);
-	for (int p = 0; p < particles; p++) {
-		plan[p] = (struct plan){.meets = MEETS_NOTHING, .second = INFINITY};
-		forget_open(engine, particle[p]);
-	}
+	for (int p = 0; p < particles; p++) forget_open(engine, particle[p]);
 	for (int p = 0; engine->wall_count && p < particles; p++) consider_walls(engine, particle[p], &plan[p]);
 	for (int p = 0; engine->side && p < particles; p++) consider_virtual_walls(engine, particle[p], &plan[p]);
 	if (engine->neighbours.skin > 0) {
