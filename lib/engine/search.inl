@@ -169,7 +169,7 @@ static void predict_listed(struct touchstone_engine *engine, const uint32_t *par
 static void predict_all(struct touchstone_engine *engine, const uint32_t *particle, int particles)
 {
 	const struct plan nothing = {.meets = MEETS_NOTHING, .second = INFINITY};
-	struct plan plan[2] = {nothing, nothing};
+	struct plan plan[2] = {nothing, nothing}; /* so many as are needed would be cleared by a slow instruction */
 	size_t candidates[2] = {0};
 	bool captures = engine->captured;
 	if (captures && engine->neighbours.skin == 0)

@@ -73,6 +73,7 @@ void inconsistency_see(void *context, struct touchstone_engine *engine, const st
 	uint64_t number = ++inconsistency->events;
 	inconsistency->met[0] = event->first;
 	inconsistency->met[1] = pair ? event->second : nobody;
+	/* looked at when the pair's separation is known: by then it is in the cache */
 	for (int p = 0; p < 1 + pair; p++) __builtin_prefetch(&inconsistency->last[inconsistency->met[p]]);
 	if (pair) {
 		inconsistency->count[INCONSISTENT_EXECUTED] += misplaced(engine, event);
