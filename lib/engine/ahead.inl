@@ -35,18 +35,23 @@ static uint32_t next_partner(const struct touchstone_engine *engine, uint32_t i)
 	return meets ? entry_particle(itinerary->partner) : i;
 }
 
+/* The same of both its particles, of one whose itinerary is there. */
+static void particles_ahead(const struct touchstone_engine *engine, uint32_t i)
+{
+	uint32_t partner = next_partner(engine, i);
+	particle_ahead(engine, i);
+	ahead(&engine->itinerary[partner]);
+	particle_ahead(engine, partner);
+}
+
 /* Today: its itinerary is there by now, and where days are many its partner's. */
 static void note_at_hand(const void *context, struct note note)
 {
 	const struct touchstone_engine *engine = context;
-	uint32_t partner = next_partner(engine, note.particle);
-	if (engine->agenda.wide) {
-		cells_ahead(&engine->cells, engine->itinerary[partner].cell);
-		return;
-	}
-	particle_ahead(engine, note.particle);
-	ahead(&engine->itinerary[partner]);
-	particle_ahead(engine, partner);
+	if (engine->agenda.wide)
+		cells_ahead(&engine->cells, engine->itinerary[next_partner(engine, note.particle)].cell);
+	else
+		particles_ahead(engine, note.particle);
 }
 
 /* Tomorrow. */
@@ -58,10 +63,7 @@ static void note_ahead(const void *context, struct note note)
 	int step[3] = {0};
 	next_cell(&engine->itinerary[note.particle], cell, step);
 	cells_ahead(&engine->cells, cell);
-	particle_ahead(engine, note.particle);
-	uint32_t partner = next_partner(engine, note.particle);
-	ahead(&engine->itinerary[partner]);
-	particle_ahead(engine, partner);
+	particles_ahead(engine, note.particle);
 }
 
 /* The day after. */
